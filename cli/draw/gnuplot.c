@@ -1,7 +1,7 @@
 /* gnuplot as a child process.
  *
- * Invariant: there is no shell, and gnuplot gets no file name of the user's. Its input and its messages are temporary
- * files, so that neither process can wait for the other for ever. The picture comes through a pipe, because
+ * Invariant: there is no shell, and gnuplot gets no file name from the user. Its input and its messages are temporary
+ * files, so that the two processes cannot wait for each other for ever. The picture comes through a pipe, because
  * file_write() notices a full disk and gnuplot does not.
  */
 #include "cli/draw/plot.h"
@@ -59,7 +59,7 @@ static motus_status copy_output(int from, file_out *picture, size_t *bytes, motu
     return status;
 }
 
-/* The first line with text in it, without leading blanks and gnuplot's caret. */
+/* Copies the first line with text in it, without leading blanks and gnuplot's caret. */
 static void first_message(FILE *from, char *out, int size)
 {
     out[0] = 0;
@@ -94,7 +94,7 @@ motus_status gnuplot_draw(gnuplot *g, file_out *picture, motus_error *err)
     }
     size_t bytes;
     motus_status status = copy_output(ends[0], picture, &bytes, err);
-    close(ends[0]); /* if gnuplot still writes, this ends it */
+    close(ends[0]); /* ends gnuplot if it still writes */
     int outcome = 0;
     pid_t waited;
     while ((waited = waitpid(process, &outcome, 0)) < 0 && errno == EINTR)

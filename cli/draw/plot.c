@@ -1,9 +1,9 @@
 /* Figures, as a script for gnuplot.
  *
- * Invariants: text enters the script in single quotes, with quotes doubled and control characters replaced, in
- * terminals set to noenhanced, so that no name is a command; data are numbers in data blocks. Curves differ by more
- * than colour: each has its own dashes and, if there are several, its own marker. Thinning keeps the smallest and the
- * largest value of every column of the picture.
+ * Invariants: text enters the script in single quotes, with quotes doubled and control characters replaced, and the
+ * terminal is `noenhanced`, so that no name is a command. Data are numbers in data blocks. Curves differ by more than
+ * colour: each has its own dashes and, if there are several, its own marker. Thinning keeps the smallest and the
+ * largest value in every column of the picture.
  */
 #include "cli/draw/plot.h"
 #include "cli/words/complain.h"
@@ -16,13 +16,13 @@
 #include <strings.h>
 
 enum {
-    COLUMNS = 2000,    /* of the picture, two values each */
-    PATH_GRID = 2500,  /* points of a path nearer than 1/2500 of the picture are drawn as one */
+    COLUMNS = 2000,    /* columns of the picture, with two values each */
+    PATH_GRID = 2500,  /* points of a path that are nearer than 1/2500 of the picture are drawn as one */
     PATH_MOST = 40000, /* points of a path, about */
-    CELLS = 1600       /* of many points, one is drawn in each of so many cells squared of the picture */
+    CELLS = 1600       /* cells along each side of the picture, if there are many points; a cell shows one point */
 };
 
-#define BAND_LEAST 1e-3 /* of the curve's height: a band of less is no wider than the curve's line */
+#define BAND_LEAST 1e-3 /* of the curve's height: a thinner band is no wider than the curve's line */
 
 typedef struct style {
     const char *colour, *dashes;
@@ -81,7 +81,7 @@ static void quoted(FILE *out, const char *s)
     putc('\'', out);
 }
 
-/* Whether gnuplot can scale the number without overflow; others are gaps in a curve. */
+/* Returns whether gnuplot can scale a number without overflow; other numbers are gaps in a curve. */
 static bool drawable(double v) { return isfinite(v) && fabs(v) < 1e290; }
 
 static void put_point(FILE *out, plot_curve *c, size_t i)
@@ -90,7 +90,7 @@ static void put_point(FILE *out, plot_curve *c, size_t i)
     double x = c->x[i * c->stride], y = c->y[i * c->stride] - (c->change ? c->y[0] : 0),
            z = c->z ? c->z[i * c->stride] : 0;
     if (!drawable(x) || !drawable(y) || !drawable(z))
-        fputs(c->z ? "\n\n" : "\n", out); /* in space one empty line begins another row of a grid */
+        fputs(c->z ? "\n\n" : "\n", out); /* in space, a single empty line begins another row of a grid */
     else if (c->z)
         fprintf(out, "%.10g %.10g %.10g\n", x, y, z);
     else if (c->shade)
@@ -99,10 +99,10 @@ static void put_point(FILE *out, plot_curve *c, size_t i)
         fprintf(out, "%.12g %.10g\n", x, y);
 }
 
-/* A point that breaks the curve: the motion jumps there. */
+/* Returns whether a point breaks the curve, since the motion jumps there. */
 static bool breaks(const plot_curve *c, size_t i) { return isnan(c->x[i * c->stride]); }
 
-/* The smallest and the largest value of the points [begin, end), in their order in time. */
+/* Draws the smallest and the largest value of the points [begin, end), in their order in time. */
 static void put_extremes(FILE *out, plot_curve *c, size_t begin, size_t end)
 {
     size_t low = begin, high = begin;
@@ -116,8 +116,8 @@ static void put_extremes(FILE *out, plot_curve *c, size_t begin, size_t end)
     if (low != high) put_point(out, c, low < high ? high : low);
 }
 
-/* Draws the smallest and the largest value of every column of the picture; of one in which the curve breaks, those of
- * every part, and with the ends of each, which are the sides of jumps. */
+/* Draws the smallest and the largest value in every column of the picture. In a column in which the curve breaks, draws
+ * them for each part, and the ends of each part, which are the sides of jumps. */
 static void put_timelike(FILE *out, plot_curve *c)
 {
     for (size_t bucket = 0; bucket < COLUMNS; bucket++) {
@@ -147,7 +147,7 @@ static double extent(const double *v, size_t count, size_t stride)
     return high > low ? high - low : 0;
 }
 
-/* Draws every point of a path that is a visible distance from the last one drawn, and both sides of its jumps. */
+/* Draws the points of a path that are a visible distance from the last one drawn, and both sides of its jumps. */
 static void put_path(FILE *out, plot_curve *c)
 {
     const double *axes[] = {c->x, c->y, c->z};
@@ -166,7 +166,7 @@ static void put_path(FILE *out, plot_curve *c)
             if (axes[a]) moved = fmax(moved, fabs(axes[a][i * c->stride] - axes[a][last * c->stride]) * scale[a]);
         const bool side = breaks(c, i) || breaks(c, i - 1) || (i + 1 < c->count && breaks(c, i + 1));
         if (i + 1 < c->count && moved < 1 && !side) continue;
-        /* of a path that fills the picture, only every `skip`th point follows the first PATH_MOST / 2 */
+        /* a path that fills the picture has only every `skip`th point after the first PATH_MOST / 2 */
         if (kept > PATH_MOST / 2 && i % skip && i + 1 < c->count && !side) continue;
         put_point(out, c, i);
         last = i;
@@ -182,12 +182,12 @@ static double lowest(const double *v, size_t count, size_t stride)
     return low;
 }
 
-/* Of many points the first in each cell of the picture, which is smaller than a point is drawn. */
+/* Draws points; of many, only the first in each cell of the picture, which is smaller than a point. */
 static void put_points(FILE *out, plot_curve *c)
 {
     const double x = lowest(c->x, c->count, c->stride), y = lowest(c->y, c->count, c->stride);
     const double wide = extent(c->x, c->count, c->stride), high = extent(c->y, c->count, c->stride);
-    unsigned char *taken = c->count > CELLS ? calloc((size_t)CELLS * CELLS, 1) : NULL; /* NULL: all are drawn */
+    unsigned char *taken = c->count > CELLS ? calloc((size_t)CELLS * CELLS, 1) : NULL; /* NULL: draw all */
     for (size_t i = 0; i < c->count; i++) {
         const double u = c->x[i * c->stride], v = c->y[i * c->stride];
         if (taken && drawable(u) && drawable(v)) {
@@ -215,7 +215,7 @@ static void put_curve(FILE *out, plot_curve *c)
         for (size_t i = 0; i < c->count; i++) put_point(out, c, i);
 }
 
-/* A band that is thinner than a line is not drawn. */
+/* Returns whether a curve has a band that is wider than its line. */
 static bool has_band(const plot_curve *c)
 {
     double widest = 0;
@@ -223,10 +223,10 @@ static bool has_band(const plot_curve *c)
     return widest > BAND_LEAST * extent(c->y, c->count, c->stride);
 }
 
-/* Whether a part of it is drawn of which no digit is known. */
+/* Returns whether no digit of a part of the line is known. */
 static bool has_rest(const plot_curve *c) { return c->role == PLOT_LINE && c->known < c->count; }
 
-/* The points from `begin` to `end` as a curve of their own. */
+/* Returns the points from `begin` to `end` as a curve of their own. */
 static plot_curve part_of(const plot_curve *c, size_t begin, size_t end)
 {
     plot_curve part = *c;
@@ -237,7 +237,7 @@ static plot_curve part_of(const plot_curve *c, size_t begin, size_t end)
     return part;
 }
 
-/* What is known of a curve, and the rest, which begins where that ends. */
+/* Writes the part of a curve of which digits are known, and the rest, which begins where that part ends. */
 static void put_parts(FILE *out, plot_curve *c, size_t panel, size_t index)
 {
     fprintf(out, "$d%zu_%zu << END_OF_DATA\n", panel, index);
@@ -290,7 +290,7 @@ static void put_data(FILE *out, plot_figure *f)
     }
 }
 
-/* Whether both axes have one scale: not if the picture would be more than 4 times as long as wide. */
+/* Returns whether both axes have one scale: not if the picture would be more than 4 times as long as wide. */
 static bool one_scale(const plot_panel *p)
 {
     if (!p->spatial) return false;
@@ -318,11 +318,11 @@ static void put_curve_style(FILE *out, const plot_panel *p, const plot_curve *c,
             fprintf(out, " lc rgb '%s'", s->colour);
         return;
     }
-    /* with more curves than styles, each repetition of the dashes pairs them with other markers */
+    /* if there are more curves than styles, curves with equal dashes have different markers */
     int marker = styles[(index + index / STYLES) % STYLES].marker;
     bool marked = lines > 1 || p->logarithmic || c->count == 1;
     fprintf(out, " with %s lw 1.8 dt %s lc rgb '%s'", marked && !c->z ? "linespoints" : "lines", s->dashes, s->colour);
-    /* in space gnuplot marks every point or none, so put_curves() draws the markers as another curve */
+    /* in space, gnuplot marks every point or none; put_curves() draws the markers as another curve */
     if (c->z) return;
     if (marked && p->logarithmic)
         fprintf(out, " pt %d ps 0.7", marker);
@@ -393,12 +393,12 @@ static void put_panel(FILE *out, const plot_panel *p, size_t index)
     quoted(out, p->y_label);
     fputs("\nset autoscale\n", out);
     if (p->heat && !isnan(p->unknown_from))
-        for (int k = 1; k <= 2; k++) /* on a light one, so that it is seen on every colour */
+        for (int k = 1; k <= 2; k++) /* a dark line on a light one is seen on every colour */
             fprintf(out, "set arrow %d from first %.12g, graph 0 to first %.12g, graph 1 nohead front %s\n", k,
                     p->unknown_from, p->unknown_from,
                     k == 1 ? "lw 5 lc rgb '#f8fafc'" : "lw 2.5 dt (2,3) lc rgb '#0f172a'");
     fputs(solid ? "set border 31 lc rgb '#64748b'\n" : "set border 3 lc rgb '#64748b'\n", out);
-    /* the key lies outside, so that it hides no curve; a single curve is named by its axis */
+    /* the key lies outside, so that it hides no curve; the axis names a single curve */
     bool beside = p->curve_count > 6;
     if (p->curve_count < 2)
         fputs("unset key\n", out);

@@ -10,7 +10,7 @@ enum { PLOT_LABEL = MOTUS_NAME_MAX + 128 };
 
 typedef enum plot_role {
     PLOT_LINE,   /* one of several: its own colour, dashes and marker */
-    PLOT_POINTS, /* points that no line joins, each of them drawn */
+    PLOT_POINTS, /* points without a line between them */
     PLOT_EXACT   /* the exact motion: green, thick, behind the others */
 } plot_role;
 
@@ -19,25 +19,25 @@ typedef struct plot_curve {
     char label[PLOT_LABEL];
     plot_role role;
     const double *x, *y, *z; /* z: NULL in the plane */
-    const double *shade;     /* of points: NULL, or the number that gives each its colour */
+    const double *shade;     /* NULL, or a number for each point, which gives its colour */
     size_t count, stride;
-    bool change;   /* draws y minus its first value */
-    bool timelike; /* x grows along the curve, so thinning can go by columns of the picture */
-    size_t known;  /* of a line: of so many points a digit is known; the rest of the line is thin and dotted */
-    size_t drawn;  /* points left after thinning; set by plot_draw() */
-    /* NULL, or a band between middle - error and middle + error at the times `at`; of a curve against t */
+    bool change;   /* draw y minus its first value */
+    bool timelike; /* x grows along the curve, so that thinning can go by columns of the picture */
+    size_t known;  /* the points of a line of which a digit is known; the rest of the line is thin and dotted */
+    size_t drawn;  /* the points left after thinning; set by plot_draw() */
+    /* NULL, or a band from middle - error to middle + error at the times `at`, for a curve against t */
     const double *at, *middle, *error;
     size_t band_count;
 } plot_curve;
 
 typedef struct plot_panel {
     char title[PLOT_LABEL], x_label[PLOT_LABEL], y_label[PLOT_LABEL], z_label[PLOT_LABEL], shade_label[PLOT_LABEL];
-    double unknown_from; /* of a heat map against time: where no digit is known any more, a line; NaN: nowhere */
-    bool spatial;        /* both axes are positions: one scale if the shape allows it */
-    bool logarithmic;    /* both axes; every point is marked */
+    double unknown_from; /* a line in a heat map against time: no digit is known after it; NaN: no line */
+    bool spatial;        /* both axes are positions, and have one scale if the shape allows it */
+    bool logarithmic;    /* both axes are logarithmic; every point is marked */
     plot_curve *curves;
     size_t curve_count;
-    /* A heat map instead of curves: heat[row * heat_columns + column], row upwards; owned by the panel. */
+    /* A heat map in place of curves: heat[row * heat_columns + column], from the lowest row on; the panel owns it. */
     double *heat;
     size_t heat_rows, heat_columns;
     double x_first, x_step, y_first, y_step;
@@ -49,27 +49,27 @@ typedef struct plot_figure {
     size_t count;
 } plot_figure;
 
-/* NULL: out of memory. A new panel makes earlier panel pointers invalid, a new curve earlier curve pointers. */
+/* Return NULL if memory runs out. A new panel makes earlier pointers to panels invalid, a new curve those to curves. */
 plot_panel *plot_panel_add(plot_figure *, const char *title, const char *x_label, const char *y_label);
 plot_curve *plot_curve_add(plot_panel *, const char *label, const double *x, const double *y, size_t count,
                            size_t stride);
 void plot_free(plot_figure *);
 
-/* Checks before long work that the name ends in a known format and that gnuplot is installed. */
+/* Checks that the name ends in a known format and that gnuplot is installed. Call it before long work. */
 motus_status plot_check(const char *path, motus_error *);
-/* Draws into the file (finished by the caller), in the format that `path` ends in. */
+/* Draws into the file, in the format that `path` ends in. The caller finishes the file. */
 motus_status plot_draw(plot_figure *, const char *path, file_out *, motus_error *);
 
-/* gnuplot as a child process: it reads a script, and its picture is written to a file. */
+/* gnuplot as a child process: it reads a script, and motus writes its picture to a file. */
 typedef struct gnuplot {
-    FILE *script;     /* write the script here */
+    FILE *script;     /* gnuplot's standard input */
     FILE *complaints; /* gnuplot's standard error */
 } gnuplot;
 
-/* TOOL, with the command that installs it, if there is no gnuplot. */
+/* Fails if gnuplot is not installed. */
 motus_status gnuplot_check(motus_error *);
 motus_status gnuplot_open(gnuplot *, motus_error *);
-/* Runs the script; the picture goes to the file. TOOL, with gnuplot's first message, if it failed. */
+/* Runs the script; the picture goes to the file. The error has gnuplot's first message. */
 motus_status gnuplot_draw(gnuplot *, file_out *picture, motus_error *);
 void gnuplot_close(gnuplot *);
 

@@ -22,7 +22,7 @@ static motus_status cannot(const char *what, const checks *c, int code, motus_er
     return fail(err, MOTUS_FILE, "cannot %s %s: %s", what, c->path, strerror(code ? code : EIO));
 }
 
-/* Reads up to `count` bytes from `place`; fewer at the end of the file; -1: errno. */
+/* Reads `count` bytes from `place`, or fewer at the end of the file. Returns how many, or -1 and errno. */
 static ssize_t read_at(int descriptor, void *out, size_t count, uint64_t place)
 {
     size_t done = 0;
@@ -49,14 +49,14 @@ static int write_at(int descriptor, const char *bytes, size_t count, uint64_t pl
 /* ---- lines ---- */
 
 static uint64_t piece_of(uint64_t byte) { return byte / CHECKS_PIECE * CHECKS_PIECE; }
-/* Where the bytes begin whose hash the line has that ends at `end`. */
+/* Returns where the bytes begin that the line ending at `end` has the hash of. */
 static uint64_t begins(const checks *c, uint64_t end)
 {
     const uint64_t piece = piece_of(end - 1);
     return piece > c->from ? piece : c->from;
 }
 
-/* The hash of the piece up to c->end. */
+/* Returns the hash of the piece up to c->end. */
 static uint64_t hash_of(const checks *c)
 {
     const uint64_t first = begins(c, c->end);
@@ -86,7 +86,7 @@ static bool read_line(const char *line, uint64_t *end, uint64_t *hash)
 
 /* ---- writing ---- */
 
-/* Whether a file of this name is ours, or empty, or none. */
+/* Returns whether a file of this name is ours, empty, or absent. */
 static bool may_replace(const char *path)
 {
     char theirs[HEAD] = "";
@@ -154,14 +154,14 @@ motus_status checks_mark(checks *c, motus_error *err)
 
 bool checks_sync(const checks *c) { return !c->path || disk_sync(c->descriptor); }
 
-/* Whether the lines are those of the pieces and the last one alone. */
+/* Returns whether there are only the lines of the pieces and the last line. */
 static bool is_settled(const checks *c)
 {
     const uint64_t pieces = c->end / CHECKS_PIECE - c->from / CHECKS_PIECE;
     return c->lines == pieces + (c->end > c->from && c->end % CHECKS_PIECE > 0);
 }
 
-/* Writes them without the lines in between, in place of the file. */
+/* Replaces FILE.check by one with only the lines of the pieces and the last line. */
 static motus_status settle(checks *c, motus_error *err)
 {
     motus_status status = file_create(&c->out, c->path, err);
@@ -184,14 +184,14 @@ motus_status checks_finish(checks *c, motus_error *err)
     if (status) return status;
     if (!is_settled(c)) return settle(c, err);
     if (!c->out.stream) return checks_sync(c) ? MOTUS_OK : cannot("write", c, errno, err);
-    c->descriptor = -1; /* that of the stream */
+    c->descriptor = -1; /* file_finish() closes it */
     status = file_finish(&c->out, err);
     return status ? status : file_keep(&c->out, err);
 }
 
-/* ---- what is there ---- */
+/* ---- reading ---- */
 
-/* The next line fits behind c->end, and the bytes of the file have its hash. */
+/* Moves c->end to `end` if a line may end there and the bytes of the file have its hash. Returns whether it does. */
 static bool follows(checks *c, int descriptor, uint64_t end, uint64_t hash)
 {
     const uint64_t most = piece_of(c->end) + CHECKS_PIECE, before = c->end;

@@ -44,7 +44,7 @@ static motus_status put_texts(file_out *f, const option *row, const options_list
     return status;
 }
 
-/* An option and its value, as the command line reads it. */
+/* Writes an option and its value. */
 static motus_status put(file_out *f, const options *o, const option *row, motus_error *err)
 {
     const void *const place = (const char *)o + row->place;

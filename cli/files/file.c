@@ -1,8 +1,8 @@
 /* Files: read up to a bound, written completely or not at all.
  *
- * Invariant: the file that the user named is complete and on the disk, or what it was before. The temporary file lies
- * in the same folder, because a rename is atomic only within a file system. On Linux it has no name until it is
- * complete: a file that is killed with the program is gone.
+ * Invariant: the file that the user named is complete and on the disk, or what it was before. A temporary file lies in
+ * its folder, because a rename is atomic only within a file system. On Linux it has no name until it is complete, and
+ * vanishes with a killed program.
  */
 #include "cli/files/file.h"
 
@@ -65,7 +65,7 @@ static motus_status read_all(FILE *in, const char *path, size_t most, size_t gue
     return MOTUS_OK;
 }
 
-/* A named pipe that nobody writes would be waited for without end. *first: a byte that was read, else EOF. */
+/* Waits for a program that writes a named pipe, but not for ever. *first is a byte that was read, or remains EOF. */
 static motus_status wait_for_writer(int fd, const char *path, int *first, motus_error *err)
 {
     enum { WAIT_MS = 10000 };
@@ -150,7 +150,7 @@ static motus_status cannot_write(file_out *f, motus_error *err)
     return fail(err, MOTUS_FILE, "cannot write %s: %s", called(f->path, false), strerror(f->code));
 }
 
-/* A file without a name beside f->path; -1: see platform_nameless(). */
+/* Opens a file without a name in the folder of f->path. Returns -1 if it cannot: see platform_nameless(). */
 static int open_nameless(file_out *f)
 {
     const int fd = disk_nameless(f->path, 0600);
@@ -175,7 +175,7 @@ static bool name_temporary(file_out *f)
     return true;
 }
 
-/* A temporary file beside f->path with the access rights the final one would have. */
+/* Creates a file in the folder of f->path, with the access rights of the final file. */
 static motus_status create_beside(file_out *f, mode_t mode, motus_error *err)
 {
     int fd = open_nameless(f);
@@ -190,7 +190,7 @@ static motus_status create_beside(file_out *f, mode_t mode, motus_error *err)
         return cannot_write(f, err);
     }
     (void)fcntl(fd, F_SETFD, FD_CLOEXEC);
-    (void)fchmod(fd, mode); /* a file system without rights keeps its own */
+    (void)fchmod(fd, mode); /* fails on a file system without access rights, which is harmless */
     f->stream = fdopen(fd, "w");
     if (!f->stream) {
         close(fd);
@@ -205,7 +205,7 @@ motus_status file_create(file_out *f, const char *path, motus_error *err)
     struct stat about;
     bool output = strcmp(path, "-") == 0, exists = !output && stat(path, &about) == 0;
     if (!*path) return fail(err, MOTUS_ARGUMENT, "the name of an output file is empty");
-    /* of a link the target is replaced */
+    /* the target of a link is replaced, not the link */
     f->path = exists && S_ISREG(about.st_mode) ? realpath(path, NULL) : NULL;
     if (!f->path) f->path = strdup(path);
     if (!f->path) return complain_memory(err);
@@ -226,7 +226,7 @@ motus_status file_create(file_out *f, const char *path, motus_error *err)
         if (fd >= 0) close(fd);
         return cannot_write(f, err);
     }
-    /* rename() would replace a read-only file */
+    /* rename() would replace a read-only file too */
     if (exists && access(f->path, W_OK) != 0) {
         f->code = errno;
         return cannot_write(f, err);
@@ -331,7 +331,7 @@ void file_beside_drop(file_beside *f)
     *f = (file_beside)FILE_BESIDE;
 }
 
-/* Opened the other way round, so that reading and writing fail: what is asked for and cannot be told is an error. */
+/* Opens input for writing and output for reading, so that using them is an error. */
 void file_open_standard(void)
 {
     for (int wanted = STDIN_FILENO; wanted <= STDERR_FILENO; wanted++) {
@@ -348,7 +348,7 @@ bool file_output_closed(void)
 
 motus_status file_flush_output(motus_error *err)
 {
-    const int before = ferror(stdout) ? errno : 0; /* of the write that failed while more was printed */
+    const int before = ferror(stdout) ? errno : 0; /* of an earlier write that failed */
     errno = 0;
     if (fflush(stdout) == 0 && !ferror(stdout)) return MOTUS_OK;
     const int code = errno ? errno : before ? before : EIO;

@@ -10,45 +10,45 @@
 #define FILE_MODEL_MAX ((size_t)16 << 20) /* bytes of a model */
 #define FILE_STATE_MAX ((size_t)1 << 30)  /* bytes of a restart state */
 #define FILE_VALUES_MAX 50000000          /* numbers of a file of values */
-#define FILE_LINE_MAX ((size_t)16 << 20)  /* bytes of a line of one */
+#define FILE_LINE_MAX ((size_t)16 << 20)  /* bytes of a line of a file of values */
 
-/* Opens a file, a pipe or a terminal to be read; the caller closes it. */
+/* Opens a file, a pipe or a terminal for reading. */
 motus_status file_open(const char *path, FILE **, motus_error *);
-/* The bytes of a file ("-": standard input) followed by a 0; the caller frees *text. LIMIT beyond `most` bytes. */
+/* Reads a file ("-": standard input) of at most `most` bytes; a byte 0 follows them. The caller frees *text. */
 motus_status file_read(const char *path, size_t most, char **text, size_t *length, motus_error *);
-bool file_same(const char *a, const char *b); /* whether both name one file, also through links */
+bool file_same(const char *a, const char *b); /* returns whether both name one file, also by links */
 
 /* Finds a program in PATH. */
 bool file_program(const char *name, char *path, size_t size);
 
-/* A file being written. Until file_keep() it has no name, so that a killed program leaves nothing behind; where the
- * file system knows no such files, it has a temporary name in the same folder. A device, a pipe or "-" is written
+/* A file that is being written. It has no name until file_keep(), so that a killed program leaves nothing behind; if
+ * the file system has no such files, it has a temporary name in its folder. A device, a pipe or "-" is written
  * directly. */
 typedef struct file_out {
     FILE *stream;
     bool direct;
-    int nameless;           /* 1 + the descriptor of a file without a name; 0: there is none */
-    char *path, *temporary; /* temporary: NULL when written directly, or without a name */
+    int nameless;           /* 1 + the descriptor of a file without a name; 0: the file has a name */
+    char *path, *temporary; /* temporary: NULL if the file is written directly, or has no name */
     int code;               /* errno of the first failure */
-    void (*seen)(void *with, const char *bytes, size_t count); /* NULL, or is told all that is written, */
-    void *with;                                                /*   with this */
+    void (*seen)(void *with, const char *bytes, size_t count); /* NULL, or called for all bytes that are written */
+    void *with;                                                /* the first argument of `seen` */
 } file_out;
 
 motus_status file_create(file_out *, const char *path, motus_error *);
 motus_status file_write(file_out *, const char *bytes, size_t count, motus_error *);
 motus_status file_text(file_out *, const char *, motus_error *);
-/* Writes everything to the disk and closes; the file does not have its name yet. */
+/* Writes everything to the disk and closes the file, which has no name yet. */
 motus_status file_finish(file_out *, motus_error *);
 /* Gives the file its name, atomically. */
 motus_status file_keep(file_out *, motus_error *);
-/* Removes a file that was not kept, and frees. Call in any case. */
+/* Removes a file that was not kept, and frees memory. Call it in any case. */
 void file_drop(file_out *);
 
-/* An archive beside the one in whose place it comes when it is complete; where the system has files without a name, it
- * has none until then, so that a killed program leaves nothing behind. */
+/* An archive that replaces another one when it is complete. It has no name until then if the system has such files, so
+ * that a killed program leaves nothing behind; else its name is that of the other one and an ending. */
 typedef struct file_beside {
-    char *name; /* of the file in whose place it comes */
-    char *path; /* by which it is opened until it is kept */
+    char *name; /* of the archive that it replaces */
+    char *path; /* opens it until it is kept */
     int descriptor;
 } file_beside;
 #define FILE_BESIDE    \
@@ -57,15 +57,15 @@ typedef struct file_beside {
     }
 motus_status file_beside_make(file_beside *, const char *name, const char *ending, motus_error *);
 motus_status file_beside_keep(file_beside *, motus_error *);
-/* In a message the name that the user has given takes the place of the path. */
+/* Replaces the path in an error by the name that the user has given. */
 void file_beside_complain(const file_beside *, const char *name, motus_error *);
-/* Removes a file that was not kept, and frees. Call in any case. */
+/* Removes an archive that was not kept, and frees memory. Call it in any case. */
 void file_beside_drop(file_beside *);
 
-/* Opens the descriptors 0 to 2 where they are closed: what reads or writes them then fails, as if they were closed. */
+/* Takes the descriptors 0 to 2 that are closed, so that no file gets them. Reading or writing them still fails. */
 void file_open_standard(void);
-bool file_output_closed(void); /* standard output was closed when the program began, or cannot be written */
-/* Flushes standard output and reports what could not be written. */
+bool file_output_closed(void); /* returns whether standard output cannot be written */
+/* Flushes standard output. The error also covers earlier failures to write. */
 motus_status file_flush_output(motus_error *);
 
 #endif

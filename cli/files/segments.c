@@ -16,9 +16,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* Where the rows of a block are: in which segment, 1 + its number, 0: in none. */
+/* Where the rows of a block are. */
 typedef struct stretch {
-    size_t segment;
+    size_t segment; /* 1 + the number of the segment; 0: none has the block */
     uint64_t at, length;
 } stretch;
 
@@ -28,10 +28,10 @@ struct segments {
     char *folder;
     uint64_t blocks;
     size_t first; /* the number to try first */
-    stretch *of;  /* the blocks */
+    stretch *of;  /* for each block */
     char **files; /* the segments that were found */
     size_t file_count;
-    FILE *own; /* the segment of this process; NULL: it has written nothing */
+    FILE *own; /* the segment of this process; NULL: it has not written yet */
     char *own_name;
     uint64_t length, hash; /* of the rows of the present block */
 };
@@ -91,7 +91,7 @@ bool segments_there(const char *table)
 {
     char *name = disk_beside(table, FOLDER);
     DIR *folder = name ? opendir(name) : NULL;
-    bool there = name && !folder && errno != ENOENT; /* a file of this name is in the way */
+    bool there = name && !folder && errno != ENOENT; /* a file has the name of the folder */
     for (const struct dirent *entry; folder && (entry = readdir(folder));) there = there || is_segment(entry->d_name);
     if (folder) closedir(folder);
     free(name);
@@ -136,7 +136,7 @@ motus_status segments_remove(const segments *s, motus_error *err)
 
 /* ---- reading ---- */
 
-/* "# end of block 7, 1234 bytes, hash 0123456789abcdef\n"; returns whether it is one. */
+/* Reads "# end of block 7, 1234 bytes, hash 0123456789abcdef\n". Returns whether the line is of this form. */
 static bool read_end(const char *line, uint64_t *block, uint64_t *length, uint64_t *hash)
 {
     int end = 0;
@@ -144,17 +144,18 @@ static bool read_end(const char *line, uint64_t *block, uint64_t *length, uint64
            strcmp(line + end, "\n") == 0;
 }
 
-/* The head of a segment. *whole false: it was being written. */
+/* Reads the head of a segment and checks its sweep. *whole is false if the process was killed while it wrote the
+ * head. */
 static motus_status read_head(const segments *s, const char *name, FILE *in, bool *whole, motus_error *err)
 {
-    const size_t room = strlen(s->head) + 4096; /* paths to one model may differ in length */
+    const size_t room = strlen(s->head) + 4096; /* a longer path may lead to the model */
     char *theirs = malloc(room);
     size_t used = 0;
     int lines = 0;
     if (!theirs) return complain_memory(err);
     for (int c; lines < 3 && used + 1 < room && (c = getc(in)) != EOF; lines += c == '\n') theirs[used++] = (char)c;
     theirs[used] = 0;
-    /* after a power cut there may be zeros in place of what was written last */
+    /* a power cut may leave zeros for the bytes that were written last */
     *whole = lines == 3 && strncmp(theirs, "# motus sweep ", 14) == 0;
     const bool good = !*whole || s->same(s->head, theirs);
     free(theirs);
@@ -210,7 +211,7 @@ static motus_status open_own(segments *s, motus_error *err)
         free(s->own_name);
         s->own_name = name_of(s, number);
         if (!s->own_name) return complain_memory(err);
-        s->own = fopen(s->own_name, "wbxe"); /* that no other process has */
+        s->own = fopen(s->own_name, "wbxe"); /* fails if another process has this name */
         if (!s->own && errno != EEXIST) return cannot("write", s->own_name, err);
     }
     return fputs(s->head, s->own) < 0 ? cannot("write", s->own_name, err) : MOTUS_OK;

@@ -15,7 +15,8 @@ static bool whole_number(const char *text, uint64_t *value)
     return length > 0 && decimal_read_whole(text, length, value) == length;
 }
 
-/* The array has to be 1-N: of another one, as of a single task that was submitted again, N is not known. */
+/* Reads the shard from the environment of a Slurm task. The array must be 1-N; for another one, such as a single task
+ * that was submitted again, N is not known. */
 static motus_status of_slurm(shard *s, motus_error *err)
 {
     const char *const names[] = {"SLURM_ARRAY_TASK_ID", "SLURM_ARRAY_TASK_COUNT", "SLURM_ARRAY_TASK_MIN",

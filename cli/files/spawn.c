@@ -1,7 +1,4 @@
-/* Another program as a child process.
- *
- * Invariant: there is no shell, so each argument arrives unchanged.
- */
+/* Another program as a child process, without a shell, so that each argument arrives unchanged. */
 #include "cli/files/spawn.h"
 
 #include "base/platform.h"
@@ -40,8 +37,7 @@ int spawn_program(pid_t *process, char *const arguments[], const int streams[3],
     return code;
 }
 
-/* ---- the browser: the address is one argument that begins with its scheme, so that a file's name is never taken for
- * an option or a command ---- */
+/* ---- the browser: its address begins with a scheme, so that no file name is taken for an option ---- */
 
 static bool start(const char *program, const char *url)
 {
@@ -58,8 +54,8 @@ bool browser_open(const char *url)
     const char *wanted = getenv("BROWSER");
     char *list = strdup(wanted ? wanted : "");
     bool good = false;
-    /* $BROWSER is a list of programs in order of preference. An entry with arguments, "firefox -P work %s", fails to
-     * start here; the system's opener reads $BROWSER too and can run it. */
+    /* $BROWSER is a list of programs in order of preference. An entry with arguments, "firefox -P work %s", cannot
+     * start here; the system's opener reads $BROWSER too and can start it. */
     for (char *name = list, *end; name && *name && !good; name = end) {
         end = name + strcspn(name, ":");
         if (*end) *end++ = 0;

@@ -1,9 +1,9 @@
 /* Signals that stop the program, and progress.
  *
- * Invariant: the handler stores the signal and starts a clock; work ends when it next asks stop_requested(), temporary
- * files are removed, and then the program raises that signal again, so that a shell and its loops stop as well. Where
- * nobody has asked when the time is over, in a library call or a loop without end, the clock raises the signal: what is
- * left is what kill -9 leaves, which --resume takes up. A second signal kills at once.
+ * Invariant: the handler stores the signal and starts a clock. The work ends at its next call of stop_requested(),
+ * temporary files are removed, and the program raises the signal again, so that a shell and its loops stop too. If that
+ * call does not come in time, as in a loop without end, the clock raises the signal; files are then as after kill -9,
+ * and --resume continues them. A second signal kills at once.
  */
 #include "cli/files/stop.h"
 
@@ -15,9 +15,8 @@
 #include <unistd.h>
 
 enum { PATIENCE = 150000, PATIENCE_KEEPING = 2000000 }; /* microseconds from the signal on */
-/* Of SIGTERM where a block may be completed: so long it goes on; and so long until the clock raises the signal. */
-#define HURRY 0.2
-enum { PATIENCE_BLOCK = 400000 };
+#define HURRY 0.2                                       /* seconds that a block has to become complete after SIGTERM */
+enum { PATIENCE_BLOCK = 400000 };                       /* microseconds until the clock then raises the signal */
 
 /* The program's globals that change: a signal handler has no other way to report. */
 static volatile sig_atomic_t requested, heard;
@@ -44,7 +43,7 @@ static void warn(int number)
     if (alone) setitimer(ITIMER_REAL, &once, NULL);
 }
 
-/* The time is over. */
+/* Raises the signal if the work did not ask in time. */
 static void end(int number)
 {
     const int late = requested ? requested : hurries;
@@ -54,7 +53,7 @@ static void end(int number)
     raise(late);
 }
 
-/* Signals that are ignored stay so. */
+/* Sets a handler for signals that are not ignored. */
 static void handle(const int *signals, size_t count, void (*handler)(int))
 {
     struct sigaction action = {0}, before;
@@ -82,7 +81,7 @@ bool stop_warned(void)
     return warned != 0;
 }
 
-/* SIGTERM was heard, and there has been time to complete what would soon be complete. */
+/* Returns whether the time after SIGTERM in which a block may be completed is over. */
 static bool is_over(void)
 {
     static double since;
@@ -111,7 +110,7 @@ void stop_catch_signals(void)
     sigemptyset(&clock.sa_mask);
     sigaction(SIGALRM, &clock, NULL);
     handle(caught, sizeof caught / sizeof *caught, store);
-    ignore(SIGPIPE); /* a closed pipe is then a failed write, after which temporary files can be removed */
+    ignore(SIGPIPE); /* a write to a closed pipe then fails, and temporary files can be removed */
 }
 
 bool stop_requested(void)
@@ -144,7 +143,7 @@ stop_progress stop_progress_begin(const char *what, bool quiet)
         .what = what, .began = stop_clock(), .terminal = isatty(STDERR_FILENO) == 1, .tells = !quiet};
 }
 
-/* On a terminal each line takes the place of the one before; a log keeps them all. */
+/* Prints a line of progress; on a terminal it replaces the last one. */
 static void show(const stop_progress *p, double fraction, double spent)
 {
     enum { BAR = 20 };

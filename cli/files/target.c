@@ -1,6 +1,6 @@
 /* See target.h.
  *
- * Invariant: one program at a time writes a file of rows, where the file system has locks.
+ * Invariant: one program at a time writes a file of rows, if the file system has locks.
  */
 #include "cli/files/target.h"
 
@@ -26,7 +26,7 @@ bool target_npy(const char *path) { return ends_in(path, ".npy"); }
 char *target_beside(const char *path) { return disk_beside(path, ".json"); }
 bool target_archive(const char *path) { return ends_in(path, ".h5") || ends_in(path, ".hdf5"); }
 
-/* Of the files by way of which an archive is made: first those of sweeps and runs, then those of merges. */
+/* The endings of files beside an archive: those of sweeps and runs, then those of merges. */
 static const char *const endings[] = {".new", ARCHIVE_GROWN, ARCHIVE_GROWN ".new", ARCHIVE_JOINED,
                                       ARCHIVE_JOINED ".new"};
 enum { OF_MERGES = 3, ENDINGS = 5 };
@@ -80,7 +80,7 @@ motus_status target_check(const options *o, const char *path, motus_error *err)
     return MOTUS_OK;
 }
 
-/* HDF5 asks for a shared lock of the file, so that of an archive is behind its end: it can be read meanwhile. */
+/* The lock of an archive is behind its end, so that HDF5, which asks for a shared lock of the file, can read it meanwhile. */
 bool target_busy(const char *path, int descriptor) { return platform_locked(descriptor, target_archive(path)); }
 bool target_take(const char *path, int descriptor) { return platform_lock(descriptor, target_archive(path)); }
 
@@ -97,7 +97,7 @@ motus_status target_lock(const char *path, int *descriptor, bool *regular, motus
     *regular = S_ISREG(about.st_mode);
     if (!*regular) return MOTUS_OK;
     if (target_take(path, *descriptor)) {
-        struct stat named; /* another program may have put a new archive in its place before the lock was there */
+        struct stat named; /* another program may have replaced the archive before it was locked */
         if (stat(path, &named) != 0 || (named.st_dev == about.st_dev && named.st_ino == about.st_ino)) return MOTUS_OK;
         close(*descriptor);
         return target_lock(path, descriptor, regular, err);

@@ -1,4 +1,4 @@
-/* The files that rows and events are written into: what their names say, whether they may be written, their locks. */
+/* The files that rows and events are written to: their endings, whether they may be written, their locks. */
 #ifndef CLI_FILES_TARGET_H
 #define CLI_FILES_TARGET_H
 
@@ -6,28 +6,29 @@
 
 bool target_npy(const char *path);
 bool target_archive(const char *path);
-/* The name of the .json beside a .npy, to be freed; NULL: no memory. */
+/* Returns the name of the .json beside a .npy; the caller frees it. NULL: no memory. */
 char *target_beside(const char *path);
 
-/* The endings of such files: the rows of shards that are being joined, those of a run that needs more room. The latter
- * ends as the names of archives do, since it is locked before it replaces one. Making one of these, and compressing an
- * archive, goes by way of ".new". */
+/* Endings of files beside an archive, which replace it: the joined rows of shards, and the rows of a run with more
+ * room. The latter has the ending of an archive, since it is locked before it replaces one. These two, and
+ * compressed archives, are made under their name and ".new". */
 #define ARCHIVE_JOINED ".joined"
 #define ARCHIVE_GROWN ".grown.h5"
-/* Whether an input has the name of a file that is made on the way to this archive. */
+/* Returns whether an input has the name of a file that is made on the way to this archive. */
 bool target_replaces(const char *archive, const char *input);
-/* Removes what a killed program left beside an archive, which this program has locked. */
+/* Removes the files that a killed program left beside an archive, which this program has locked. */
 void target_tidy(const char *archive);
 
-/* Whether the options allow to write this file, "-": standard output. */
+/* Fails if the options do not allow writing this file ("-": standard output). */
 motus_status target_check(const options *, const char *path, motus_error *);
-/* Opens a regular file that no other program writes; *regular false: another one, for writing alone. */
+/* Opens and locks a file; fails if another program writes it. *regular is false for a device or a pipe, which is open
+ * for writing only. */
 motus_status target_lock(const char *path, int *descriptor, bool *regular, motus_error *);
-/* Asks for the lock of the file of this name, by a descriptor of it; false: another program has it. Where the file
- * system has no locks, it is done without. */
+/* Locks an open file, whose name says which kind of lock. Returns false if another program has the lock; true if the
+ * file system has no locks. */
 bool target_take(const char *path, int descriptor);
-/* Whether another program writes the file. */
+/* Returns whether another program writes the file. */
 bool target_busy(const char *path, int descriptor);
-int target_bytes(int descriptor, const char *, size_t count, size_t *written); /* an errno, or 0 */
+int target_bytes(int descriptor, const char *, size_t count, size_t *written); /* returns an errno, or 0 */
 
 #endif

@@ -1,6 +1,6 @@
 /* motus compare: every method side by side.
  *
- * Invariant: the numbers are the library's. A method that failed has a row, and a note that says why.
+ * Invariant: the library computes the numbers. A method that failed has a row, and a note that says why.
  */
 #include "cli/model/share.h"
 #include "cli/study/studies.h"
@@ -14,7 +14,7 @@
 
 static void tell(json *j, const void *result) { tell_comparison(j, result); }
 
-/* Errors of what the model has: of positions and velocities, and of first-order variables. */
+/* Makes the table of errors, with columns for what the model has: positions and velocities, first-order variables. */
 static table *error_table(const motus_comparison *c, bool positions, bool first_order)
 {
     static const char *const heads[] = {"method", "order", "step", "steps", "evaluations", "time"};
@@ -48,7 +48,7 @@ static table *error_table(const motus_comparison *c, bool positions, bool first_
     return t;
 }
 
-/* The deviation of the invariants and its trend. NULL: there are none. */
+/* Makes the table of the drift of invariants and its trend. Returns NULL if there are no invariants. */
 static table *drift_table(const motus_comparison *c)
 {
     const motus_compare_row *widest = NULL;

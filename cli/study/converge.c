@@ -1,6 +1,6 @@
 /* motus converge: error against step, the fitted order, the certificate.
  *
- * Invariant: the table of orders comes first. The exit status is 0 unless a method has failed to show its order.
+ * Invariant: the table of orders comes first. The exit status is 0 unless a method does not show its order.
  */
 #include "cli/draw/plot.h"
 #include "cli/study/studies.h"
@@ -14,7 +14,7 @@
 
 static void tell(json *j, const void *result) { tell_convergence(j, result); }
 
-/* Steps and errors in pairs of lines; points that the fit leaves out are in brackets. */
+/* Prints steps and errors in pairs of lines; errors that the fit leaves out are in brackets. */
 static bool print_points(const motus_converge_row *r, bool colours)
 {
     enum { A_LINE = 10 };
@@ -44,7 +44,7 @@ static bool print_points(const motus_converge_row *r, bool colours)
     return good;
 }
 
-/* Why a row has no order; "": it has one. */
+/* Returns why a row has no order, or "" if it has one. */
 static const char *without_order(const motus_converge_row *r)
 {
     if (r->observed == r->observed || r->exact_here) return "";
@@ -56,7 +56,7 @@ static const char *passed_word(const motus_converge_row *r)
     return r->passed ? "yes" : r->uncertain ? "not certified" : "FAILED";
 }
 
-/* "5.10 ± 0.11": a slope with twice its standard error. */
+/* Writes a slope with twice its standard error: "5.10 ± 0.11". */
 static void slope_cell(table *t, const motus_converge_row *r, double slope, double error)
 {
     char text[64];
@@ -64,7 +64,7 @@ static void slope_cell(table *t, const motus_converge_row *r, double slope, doub
     table_cell(t, r->exact_here ? "exact here" : slope == slope ? text : "-");
 }
 
-/* A line for each method that chooses its steps; false: memory ran out. */
+/* Prints a line for each method that chooses its steps. Returns false if memory runs out. */
 static bool print_paced(const motus_convergence *c, bool colours)
 {
     static const char *const head[] = {"method", "declared", "observed", "power of the tolerance",
@@ -99,7 +99,7 @@ static bool print_paced(const motus_convergence *c, bool colours)
     return good;
 }
 
-/* A line for each method of fixed step. */
+/* Prints a line for each method with a fixed step. Returns false if memory runs out. */
 static bool print_orders(const motus_convergence *c, bool colours)
 {
     bool remarks = false;
@@ -149,7 +149,7 @@ static motus_status print_tables(const studies *s, const void *result, motus_err
     return good ? MOTUS_OK : complain_memory(err);
 }
 
-/* Error against step, both logarithmic: the slope is the order. */
+/* Draws error against step, both logarithmic, so that the slope is the order. */
 static motus_status draw(studies *s, const void *result, file_out *file, motus_error *err)
 {
     const motus_convergence *c = result;
@@ -188,7 +188,7 @@ static motus_status draw(studies *s, const void *result, file_out *file, motus_e
     return status;
 }
 
-/* The error of methods that do not show their order. */
+/* Makes the error for methods that do not show their order. */
 static motus_status verdict(const motus_convergence *c, motus_error *err)
 {
     char names[MOTUS_TEXT_MAX / 2] = "";
@@ -208,8 +208,7 @@ motus_status converge_verb(const options *o, motus_error *err)
     motus_study_def def;
     motus_convergence *c = NULL;
     motus_status status = studies_begin(&s, "converge", SETTLE_UNTIL, o, &def, err);
-    if (!status)
-        def.until = o->until; /* the library suggests the same end, and may cut it, as it does with the model's */
+    if (!status) def.until = o->until; /* else the library takes the model's end or suggests one, and may cut it */
     if (!status) status = motus_converge(s.model.system, &def, &c, err);
     stop_progress_end(&s.progress);
     if (!status) status = studies_show(&s, &ways, c, err);

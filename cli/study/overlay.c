@@ -1,7 +1,7 @@
 /* The figure of a comparison.
  *
- * Invariant: a method has the same colour, dashes and marker in every panel. A panel draws the first cell of a
- * variable; the last one draws the change of the first invariant.
+ * Invariant: a method has one colour, one kind of dashes and one marker in all panels. A panel draws the first cell of
+ * a variable; the last panel draws the change of the first invariant.
  */
 #include "cli/study/studies.h"
 
@@ -13,7 +13,7 @@ enum { METHODS = 8, PANELS = 5, SAMPLES = 50000 };
 typedef struct slot {
     size_t panel, columns[2]; /* x and y of the curve */
     bool timelike, change;
-    size_t exact[2]; /* 0: none */
+    size_t exact[2]; /* x and y of the exact curve; exact[1] 0: there is none */
 } slot;
 
 typedef struct overlay {
@@ -78,7 +78,8 @@ static bool add_curve(overlay *v, record *r, const slot *s, const size_t columns
     return true;
 }
 
-/* Runs one method again and records its curves for every panel; the first method's run records the exact ones too. */
+/* Runs one method again and records its curves for every panel. The run of the first method also records the exact
+ * curves. */
 static motus_status run_method(overlay *v, const motus_compare_row *row, stop_progress *progress, motus_error *err)
 {
     motus_run_def def = motus_default_run();

@@ -1,6 +1,6 @@
-/* motus compare --accuracies: work against precision.
+/* motus compare --accuracies: work against accuracy.
  *
- * Invariant: the numbers are the library's. A method that does not reach an accuracy has a line that says why.
+ * Invariant: the library computes the numbers. A method that does not reach an accuracy has a line that says why.
  */
 #include "cli/study/studies.h"
 
@@ -14,8 +14,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define NEAR 2.0     /* the figure draws methods that need at most so many times the least work at some accuracy, */
-enum { DRAWN = 12 }; /* where there are more than these */
+enum { DRAWN = 12 }; /* the figure draws all methods if they are at most so many, */
+#define NEAR 2.0     /* or else those that need at most so many times the least work at some accuracy */
 
 static void tell(json *j, const void *result) { tell_ranking(j, result); }
 
@@ -30,7 +30,7 @@ static void accuracy_cell(table *t, double accuracy)
     table_cell(t, text);
 }
 
-/* A line for each method that reached an accuracy, a column for each accuracy. */
+/* Makes a table with a line for each method that reached an accuracy, and a column for each accuracy. */
 static table *work_table(const motus_ranking *r, bool time)
 {
     char align[64] = "lr";
@@ -122,7 +122,7 @@ static motus_status print_tables(const studies *s, const void *result, motus_err
     return good ? MOTUS_OK : complain_memory(err);
 }
 
-/* The figure ------------------------------------------------------------------------------------------------------- */
+/* ---- the figure ---- */
 
 static bool near(const motus_ranking *r, size_t k)
 {
@@ -135,7 +135,7 @@ static bool near(const motus_ranking *r, size_t k)
     return false;
 }
 
-/* Error against work, both logarithmic; the numbers go to `numbers`. */
+/* Draws error against work, both logarithmic. `numbers` is memory for the points. */
 static motus_status draw_panel(const motus_ranking *r, plot_panel *p, bool time, bool all, double *numbers,
                                motus_error *err)
 {

@@ -1,6 +1,6 @@
 /* What the studies share.
  *
- * Invariant: a picture that cannot be drawn, or would overwrite the model, is refused before anything is computed.
+ * Invariant: a picture that cannot be drawn, or would overwrite the model, is an error before anything is computed.
  */
 #include "cli/study/studies.h"
 
@@ -17,7 +17,7 @@ motus_status studies_begin(studies *s, const char *what, int needed, const optio
     if (!status && o->plot && o->operand && file_same(o->plot, o->operand))
         status = fail(err, MOTUS_ARGUMENT, "%s is read and would be overwritten", o->operand);
     if (!status) status = load_model(&s->model, o, err);
-    /* By a method that takes all steps and forces: the model's own need not be among those that are studied. */
+    /* explicit-euler admits all steps and forces; the model's own method need not be among those that are studied */
     if (!status) status = settle_timing(&s->model, o, needed, "explicit-euler", NULL, err);
     if (status) return status;
     *def = motus_default_study();

@@ -1,4 +1,4 @@
-/* What the studies share: load a model, study it, show the result. */
+/* What the studies share: they load a model, study it, and show the result. */
 #ifndef CLI_STUDY_STUDIES_H
 #define CLI_STUDY_STUDIES_H
 
@@ -14,7 +14,7 @@ typedef struct studies {
     stop_progress progress;
 } studies;
 
-/* Loads the model and fills the definition; needed: as of settle_timing. Progress is shown under the name
+/* Loads the model and fills the definition. `needed` is that of settle_timing(). Progress is shown under the name
  * `what` until stop_progress_end(). */
 motus_status studies_begin(studies *, const char *what, int needed, const options *, motus_study_def *, motus_error *);
 
@@ -23,19 +23,19 @@ void studies_title(const studies *, const char *reference, double error);
 
 typedef struct studies_ways {
     motus_status (*draw)(studies *, const void *result, file_out *, motus_error *);
-    void (*tell)(json *, const void *result); /* the keys of the result, after those of the model */
+    void (*tell)(json *, const void *result); /* writes the keys of the result, after those of the model */
     motus_status (*tables)(const studies *, const void *result, motus_error *);
 } studies_ways;
 
-/* Draws the picture, then prints JSON or tables, so that nothing is printed if the picture fails; the picture gets its
- * name last. */
+/* Draws the picture, and then prints JSON or tables, so that nothing is printed if the picture fails. The picture gets
+ * its name last. */
 motus_status studies_show(studies *, const studies_ways *, const void *result, motus_error *);
 
-/* overlay.c: the figure of a comparison: the motion by each method, over the exact one. */
+/* Draws the figure of a comparison: the motion by each method, over the exact motion (overlay.c). */
 motus_status overlay_draw(const load *, const motus_comparison *, const options *, file_out *, stop_progress *,
                           motus_error *);
 
-/* motus compare --accuracies. */
+/* Does motus compare --accuracies (rank.c). */
 motus_status rank_verb(const options *, motus_error *);
 
 #endif

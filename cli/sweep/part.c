@@ -1,8 +1,8 @@
 /* The file of one shard. See part.h.
  *
- * Invariant: a row is copied only if its trajectory is the one that must come next, so whatever is in a file, the rows
- * of the merged one are those of the trajectories in their order; and where the checks of its rows are there, only if
- * they fit. A file is open only while a block of it is copied: there may be more shards than a process may have files.
+ * Invariant: a row is copied only if its trajectory is the next one, and if it matches its check, should the file have
+ * checks. So the merged file has the rows of all trajectories in their order. A file is open only while one of its
+ * blocks is copied, since there may be more shards than a process may have open files.
  */
 #include "cli/sweep/part.h"
 
@@ -52,7 +52,7 @@ static motus_status empty(const part *p, motus_error *err)
 
 /* ---- heads ---- */
 
-/* Removes `what` where it last stands before `end`. False: it is not there. */
+/* Removes the last `what` before `end`. Returns false if there is none. */
 static bool cut(char *text, const char *end, const char *what)
 {
     const size_t length = strlen(what);
@@ -62,8 +62,8 @@ static bool cut(char *text, const char *end, const char *what)
     return last;
 }
 
-/* Reads the shard and the trajectories behind these words, and takes the shard out of the head, which then is that of
- * the whole sweep. False: they are not there. */
+/* Reads the shard and the number of trajectories behind these words, and removes the shard from the head, which becomes
+ * that of the whole sweep. Returns false if the head does not have them. */
 static bool take_shard(part *p, const char *its, const char *trajectories, const char *before, const char *after)
 {
     char words[96], text[SHARD_TEXT], title[SHARD_TITLE];
@@ -82,7 +82,7 @@ static bool take_shard(part *p, const char *its, const char *trajectories, const
     return cut(p->head, p->head + strlen(p->head), words);
 }
 
-/* "# motus sweep …\n# motus VERSION, trajectories N, fingerprint F, shard K/N\nnames\n" */
+/* Reads "# motus sweep …\n# motus VERSION, trajectories N, fingerprint F, shard K/N\nnames\n". */
 static motus_status csv_head(part *p, FILE *in, motus_error *err)
 {
     size_t room = 0, used = 0;
@@ -147,7 +147,7 @@ static motus_status npy_head(part *p, FILE *in, motus_error *err)
     return rows == shard_rows(&p->shard, p->total) ? MOTUS_OK : part_unfinished(p, err);
 }
 
-/* The fingerprint and the columns, by which the shards of a sweep are known. */
+/* Returns what all shards of a sweep share: the fingerprint and the columns. The caller frees it. NULL: no memory. */
 static char *common(const motus_archive *a)
 {
     char *text = NULL;
@@ -160,7 +160,7 @@ static char *common(const motus_archive *a)
     return fclose(out) == 0 ? text : NULL;
 }
 
-/* Whether its blocks are those of the shard that it says it is. */
+/* Returns whether an archive has the rows of the shard that it names. */
 static bool fits(const motus_archive *a, const part *p)
 {
     return archived_sweep(a) && motus_archive_rows(a) == shard_rows(&p->shard, p->total);
@@ -200,7 +200,7 @@ static FILE *open_at(const part *p)
     return in;
 }
 
-/* Up to where its bytes are those that were written. */
+/* Finds up to where the bytes of a part match their checks. */
 static motus_status find_checks(part *p, FILE *in, motus_error *err)
 {
     checks c = {.descriptor = -1};
@@ -214,7 +214,7 @@ static motus_status find_checks(part *p, FILE *in, motus_error *err)
 motus_status part_open(part *p, const char *path, motus_error *err)
 {
     *p = (part){.path = path};
-    struct stat about; /* it is read in pieces, and opened again for each */
+    struct stat about; /* a pipe could not be opened again for each block */
     if (stat(path, &about) == 0 && !S_ISREG(about.st_mode)) return no_shard(p, "is no regular file", err);
     FILE *in = open_at(p);
     if (!in) return cannot_read(path, err);
@@ -242,7 +242,7 @@ void part_close(part *p)
 
 /* ---- rows ---- */
 
-/* Whether a line begins with this number and a comma. */
+/* Returns whether a line begins with this number and a comma. */
 static bool begins_with(const char *line, uint64_t number)
 {
     char text[DECIMAL_MAX + 1];
@@ -262,7 +262,7 @@ static motus_status copy_lines(part *p, FILE *in, uint64_t first, uint64_t count
             status = ferror(in) ? cannot_read(p->path, err) : part_unfinished(p, err);
             break;
         }
-        if (events) { /* a trajectory has any number of them */
+        if (events) { /* a trajectory has any number of events */
             uint64_t number = UINT64_MAX;
             if (line[0] != '#' && !decimal_read_whole(line, (size_t)length, &number)) number = 0;
             if (number >= behind) break;

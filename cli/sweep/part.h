@@ -1,4 +1,4 @@
-/* The file of one shard of a sweep, as it is merged. */
+/* The file of one shard of a sweep, for `motus merge`. */
 #ifndef CLI_SWEEP_PART_H
 #define CLI_SWEEP_PART_H
 
@@ -13,30 +13,29 @@ typedef struct part {
     part_kind kind;
     shard shard;
     uint64_t total; /* trajectories of the whole sweep */
-    size_t width;   /* bytes of a row of a .npy */
-    /* that of the whole sweep: the lines above the rows, or the .json beside a .npy; of an archive what its shards have
-     * in common */
+    size_t width;   /* bytes in a row of a .npy */
+    /* The head of the whole sweep: the lines above the rows, or the .json beside a .npy; for an archive, what all its
+     * shards share. */
     char *head;
-    const char *its;  /* in it: what the heads of all shards of a sweep have in common, to its end */
+    const char *its;  /* the end of `head` that all shards of a sweep share */
     uint64_t at;      /* where the first row begins that has not been copied */
-    uint64_t checked; /* up to where its bytes have their checks; UINT64_MAX: there are none */
-    bool broken;      /* those behind do not have them */
+    uint64_t checked; /* its bytes match their checks up to here; UINT64_MAX: it has no checks */
+    bool broken;      /* the bytes behind `checked` do not match their checks */
 } part;
 
-/* Reads the head. MOTUS_STATE: this is no shard; call part_close() in any case. */
+/* Reads the head. Call part_close() in any case. */
 motus_status part_open(part *, const char *path, motus_error *);
-/* Copies the rows of a block of the sweep, but not of an archive, to a file, block after block in their order;
- * MOTUS_STATE: they are not all there. */
+/* Copies the rows of a block to a file, unless the part is an archive. The blocks come in their order. */
 motus_status part_copy(part *, uint64_t block, file_out *, motus_error *);
-/* MOTUS_STATE: the file does not end behind its last block. */
+/* Checks that the file ends behind its last block. */
 motus_status part_end(part *, motus_error *);
 void part_close(part *);
 
-/* The error: its last trajectories are missing. */
+/* Makes the error for a part whose last trajectories are missing. */
 motus_status part_unfinished(const part *, motus_error *);
 
-/* part_archive.c: makes the archive of the whole sweep, where of[k] is shard k + 1. *missing is how many blocks no part
- * has; NULL: that is an error, and no part is NULL. */
+/* Makes the archive of the whole sweep, where of[k] is shard k + 1 or NULL (part_archive.c). *missing becomes the
+ * number of blocks that no part has; if `missing` is NULL, a missing block is an error. */
 motus_status part_archive_join(part *const *of, const char *output, uint64_t *missing, bool compress, stop_progress *,
                                motus_error *);
 

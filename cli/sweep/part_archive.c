@@ -1,7 +1,7 @@
 /* Shards of a sweep that are archives. See part.h.
  *
- * Invariant: the joined archive is, byte for byte, what one command without --shard makes: it has the description of
- * the first shard without the shard, and the blocks of all.
+ * Invariant: the joined archive is, byte for byte, what the command without --shard makes: it has the description of
+ * one shard, without the name of the shard, and the blocks of all.
  */
 #include "cli/files/archived.h"
 #include "cli/files/file.h"
@@ -16,7 +16,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* The command without the option --shard. */
+/* Returns the command without the option --shard. */
 static char *whole_command(const char *command, const part *p)
 {
     char option[SHARD_TEXT + 16], number[SHARD_TEXT], *out = strdup(command);
@@ -26,8 +26,8 @@ static char *whole_command(const char *command, const part *p)
     return out;
 }
 
-/* An archive with the columns and the notes of the first shard, in the empty file of this descriptor (-1: it gets its
- * name); `from`: NULL, or the one whose rows it has, compressed. */
+/* Makes an archive with the columns and the notes of a shard, in the empty file `descriptor`, or, if that is -1, under
+ * the name `output`. If `from` is not NULL, it has the rows of that archive, compressed. */
 static motus_status make(const part *p, const char *output, int descriptor, motus_archive *from, motus_error *err)
 {
     motus_archive *a;
@@ -106,14 +106,13 @@ motus_status part_archive_join(part *const *of, const char *output, uint64_t *mi
 {
     joining j = {.partial = missing, .progress = progress};
     size_t some = 0;
-    while (!of[some]) some++; /* one at least is there */
+    while (!of[some]) some++; /* at least one is not NULL */
     const uint64_t count = of[some]->shard.count;
-    /* It has its name when all blocks are there. */
     file_beside beside = FILE_BESIDE;
     motus_status status = file_beside_make(&beside, output, ARCHIVE_JOINED, err);
     struct stat about;
     const bool there = beside.name && stat(beside.name, &about) == 0;
-    int lock = -1; /* of the file that is replaced, which is made empty where there is none */
+    int lock = -1; /* of the file that is replaced; target_lock() makes an empty one if there is none */
     bool regular = true;
     if (!status) status = target_lock(beside.name, &lock, &regular, err);
     const bool locked = !status;

@@ -1,4 +1,4 @@
-/* Computes rows of an archive once more, and compares their bytes. See sweep.h. */
+/* Computes rows of an archive again, and compares their bytes. See sweep.h. */
 #include "base/decimal.h"
 #include "cli/sweep/sweep.h"
 #include "cli/words/complain.h"
@@ -10,8 +10,8 @@
 struct sweep_again {
     const sweep *sweep;
     sweep_batch batch;
-    double *its;  /* a column of the archive, of as many rows as a batch has room for */
-    double *rows; /* the numbers of all computed rows, row after row */
+    double *its;  /* a column of the archive, with as many rows as a batch */
+    double *rows; /* the numbers of the computed rows, row after row */
 };
 
 motus_status sweep_again_make(sweep_again **out, const sweep *s, motus_error *err)

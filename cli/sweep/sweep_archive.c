@@ -1,8 +1,8 @@
-/* The archive of a sweep, FILE.h5: its blocks may be written in any order, and those that are whole are kept. Processes
- * that compute it together take the missing ones from a common counter.
+/* The archive of a sweep, FILE.h5. Its blocks may be written in any order, and whole ones are kept. Processes that
+ * compute it together take the missing blocks from a common counter.
  *
- * Invariant: f->rows is the next row of the block that is being computed; what the room of the block holds is what was
- * computed of it. A block is written when its last row is there.
+ * Invariant: f->rows is the next row of the present block; a->room has the rows of that block before it. A block is
+ * written when its last row has been computed.
  */
 #include "base/decimal.h"
 #include "cli/files/archived.h"
@@ -19,13 +19,13 @@
 struct sweep_archive {
     motus_archive *file;
     uint64_t blocks, *missing, missing_count;
-    uint64_t next, end; /* of the missing ones this process computes those from `next` on, before `end` */
-    block_room room;    /* of the block that is being computed: the columns behind the number of the row */
-    double *numbers;    /* of AT_A_TIME rows, column after column */
+    uint64_t next, end; /* this process computes missing[next] to missing[end - 1] */
+    block_room room;    /* the columns of the present block, without the number of the row */
+    double *numbers;    /* the numbers of AT_A_TIME rows, column after column */
 };
 enum { AT_A_TIME = 256 };
 
-/* Added to the counter by a process that fails or is warned; far more than there are blocks. */
+/* What a process that fails or is warned adds to the counter; no sweep has so many blocks. */
 #define GIVEN_UP (UINT64_C(1) << 50)
 
 uint64_t sweep_archive_block(const options *o)
@@ -39,14 +39,15 @@ uint64_t sweep_archive_block(const options *o)
     return rows <= SHARD_BLOCK ? rows : 0;
 }
 
-/* ---- what it says ---- */
+/* ---- the description of the file ---- */
 
 static uint64_t number_of(void *s, uint64_t row) { return shard_trajectory(&((const sweep *)s)->shard, row); }
 
-/* Whether a column of a row has words in place of numbers. */
+/* Returns whether a column has words in place of numbers. */
 static bool has_words(const sweep *s, size_t k) { return k == sweep_ended(s) || k == s->columns - 1; }
 
-/* The words of a column; NULL: it has numbers. To be freed. */
+/* Returns the words of a column, which the caller frees. NULL: it has numbers, or memory ran out and *count is not
+ * 0. */
 static const char **words_of(const sweep *s, size_t k, size_t *count)
 {
     const bool cause = k == s->columns - 1;
@@ -103,7 +104,7 @@ static motus_status describe_columns(description *d, const sweep *s, motus_error
     return MOTUS_OK;
 }
 
-/* What the file is to have; call description_free() in any case. */
+/* Describes the archive of a sweep. Call description_free() in any case. */
 static motus_status describe(description *d, const sweep *s, motus_error *err)
 {
     *d = (description){.def = motus_archive_default()};
@@ -139,9 +140,9 @@ static void description_free(description *d)
     free(d->command);
 }
 
-/* ---- a file that is there ---- */
+/* ---- a file that exists ---- */
 
-/* Whether it is of this sweep; and by which version of motus. */
+/* Returns whether a version of motus made the archive by this sweep. */
 static bool same_sweep(const sweep_file *f, const description *d, const char *version)
 {
     char part[SHARD_TEXT], print[SWEEP_FINGERPRINT];
@@ -159,7 +160,8 @@ static bool same_sweep(const sweep_file *f, const description *d, const char *ve
     return same && motus_archive_block_rows(file) == s->shard.block;
 }
 
-/* A file that another version has begun is continued if some of its rows have the bits that this one computes. */
+/* Compares some rows of an archive that another version has begun with those that this version computes. Fails if a bit
+ * differs. */
 static motus_status compare_versions(const sweep_file *f, const char *version, motus_error *err)
 {
     enum { BLOCKS = 8, ROWS = 64 };
@@ -220,7 +222,7 @@ static motus_status count_stopped(sweep_file *f, uint64_t block, motus_error *er
     return status;
 }
 
-/* Which blocks are missing, by the first process for all. */
+/* Finds the missing blocks. The first process does so for all. */
 static motus_status find_blocks(sweep_file *f, bool found, motus_error *err)
 {
     sweep_archive *a = f->archive;
@@ -259,8 +261,8 @@ static motus_status make_room(sweep_archive *a, motus_error *err)
 
 static uint64_t block_of(const sweep_file *f) { return f->sweep->shard.block; }
 
-/* Takes blocks from the counter of all, the fewer the fewer are left, so that all end together; but, as long as there
- * are so many for each, trajectories for all lanes. */
+/* Takes blocks from the common counter. The fewer are left, the fewer it takes, so that all processes end together; but
+ * it takes enough to fill the lanes, if there are so many for each process. */
 static void take_blocks(sweep_file *f)
 {
     enum { AT_ONCE = 16 * SHARD_BLOCK, SHARES = 4 };
@@ -278,12 +280,12 @@ static void take_blocks(sweep_file *f)
     a->next = t->take(t->context, count);
     const double waited = stop_clock() - asked;
     f->share.waiting += waited;
-    f->share.writing -= waited; /* rows are being written meanwhile */
+    f->share.writing -= waited; /* the caller counts this time as writing */
     if (a->next > a->missing_count) a->next = a->missing_count;
     a->end = a->next + count < a->missing_count ? a->next + count : a->missing_count;
 }
 
-/* Where the next row is that this process computes. */
+/* Moves to the next row that this process computes. */
 static void move(sweep_file *f)
 {
     sweep_archive *a = f->archive;
@@ -363,14 +365,14 @@ double sweep_archive_done(const sweep_file *f)
     return fmin(rows, (double)f->sweep->rows);
 }
 
-/* Writes the block that is complete. */
+/* Writes the present block, which is complete. */
 static motus_status write_block(sweep_file *f, motus_error *err)
 {
     sweep_archive *a = f->archive;
     const uint64_t block = (f->rows - 1) / block_of(f), rows = f->rows - block * block_of(f);
     const motus_status status = motus_archive_write(a->file, block, a->room.written, err);
     if (status) {
-        f->rows -= rows; /* of this block nothing is there */
+        f->rows -= rows; /* nothing of this block is in the file */
         return status;
     }
     f->share.blocks++;
@@ -408,9 +410,9 @@ motus_status sweep_archive_finish(sweep_file *f, motus_error *err) { return motu
 motus_status sweep_archive_compress(sweep_file *f, motus_error *err)
 {
     description d;
-    if (motus_archive_compressed(f->archive->file)) return MOTUS_OK; /* it was found so */
+    if (motus_archive_compressed(f->archive->file)) return MOTUS_OK;
     motus_status status = describe(&d, f->sweep, err);
-    /* opened anew, for a file system that then sees what other machines have written */
+    /* opened again, since some file systems only then show what other machines have written */
     if (!status) status = motus_archive_open(f->path, 0, &d.def.from, err);
     if (!status) status = motus_archive_create(f->path, &d.def, err);
     motus_archive_close(d.def.from);

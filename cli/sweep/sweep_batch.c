@@ -1,4 +1,4 @@
-/* Trajectories of a sweep that are computed by one call. See sweep.h. */
+/* Trajectories of a sweep that one call computes. See sweep.h. */
 #include "cli/sweep/sweep.h"
 
 #include "base/decimal.h"
@@ -10,7 +10,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-/* The bounds of a batch; its duration bounds the work that a kill loses. */
+/* The bounds of a batch: trajectories, memory, and the time of work that a kill may lose. */
 enum { BATCH_MOST = 1 << 16, BATCH_BYTES = 1 << 25, BATCH_MS = 500 };
 
 size_t sweep_batch_lanes(const sweep *s)
@@ -19,7 +19,7 @@ size_t sweep_batch_lanes(const sweep *s)
     return (size_t)(now.lanes > 0 ? now.lanes : 1) * (size_t)(now.threads > 0 ? now.threads : 1);
 }
 
-/* The numbers that are kept of a trajectory: values, results, errors, stopped. */
+/* Returns how many numbers of a trajectory are kept: values, results, errors, stopped. */
 static size_t columns_of(const sweep *s) { return s->grid.count + sweep_kept(s) * (s->errors ? 2 : 1) + 1; }
 
 motus_status sweep_batch_make(sweep_batch *b, const sweep *s, motus_error *err)
@@ -29,7 +29,7 @@ motus_status sweep_batch_make(sweep_batch *b, const sweep *s, motus_error *err)
     b->most = BATCH_BYTES / sizeof(double) / columns;
     if (b->most > BATCH_MOST) b->most = BATCH_MOST;
     b->most = b->most > b->lanes ? b->most / b->lanes * b->lanes : b->lanes;
-    const size_t count = s->shard.block < SHARD_BLOCK ? b->lanes : 4 * b->lanes; /* of dear ones few to begin with */
+    const size_t count = s->shard.block < SHARD_BLOCK ? b->lanes : 4 * b->lanes; /* small blocks: costly trajectories */
     b->count = count < b->most ? count : b->most;
     b->values = calloc(columns + s->grid.count, sizeof *b->values);
     b->room = b->most < SIZE_MAX / sizeof(double) / columns ? malloc(columns * b->most * sizeof(double)) : NULL;
@@ -60,7 +60,7 @@ static void take_values(sweep_batch *b, const sweep *s, uint64_t row, size_t cou
     }
 }
 
-/* "trajectory 17 (F = 0.85)" */
+/* Writes "trajectory 17 (F = 0.85)". */
 static void name_of(const sweep *s, uint64_t number, char *out, size_t size)
 {
     size_t n = (size_t)snprintf(out, size, "trajectory %llu", (unsigned long long)number);
@@ -78,8 +78,8 @@ static void name_of(const sweep *s, uint64_t number, char *out, size_t size)
     free(values);
 }
 
-/* The error: the first of `count` trajectories, from row `first` on, that did not reach the accuracy; `judged` is
- * what was recorded to judge them by. */
+/* Makes the error for the first of `count` trajectories, from row `first` on, that did not reach the accuracy. `judged`
+ * has the SWEEP_JUDGED records. */
 static motus_status refuse(const sweep *s, uint64_t first, size_t count, double *const *judged, const double *stopped,
                            motus_error *err)
 {

@@ -1,11 +1,11 @@
 /* How many trajectories a block of a sweep has.
  *
- * A block is the unit in which work is shared by processes, and in which an archive keeps it; so it is to take a moment
- * of one lane, and no more. What a trajectory takes is counted: the steps of some, as far as a few hundred of them
- * lead, times the operations of a step. A clock would choose otherwise on every machine, and the bytes of an archive
- * and the division into shards depend on it.
+ * Processes share the work by blocks, and an archive keeps it by blocks, so a block should take one lane only a moment.
+ * The work of a trajectory is counted: the steps of a few trajectories, over a few hundred steps, times the operations
+ * of a step. A clock would choose another size on every machine, but the bytes of an archive and the division into
+ * shards depend on the size.
  *
- * Invariant: the size follows from what the numbers follow from alone.
+ * Invariant: the size depends only on what the numbers depend on.
  */
 #include "cli/sweep/sweep.h"
 #include "cli/words/complain.h"
@@ -13,15 +13,15 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define BLOCK_WORK 0x1p30 /* operations of a block: a tenth of a second of one processor, or a second, by the machine */
+#define BLOCK_WORK 0x1p30 /* operations of a block: 0.1 s to 1 s of one processor, by the machine */
 #define TRIAL_WORK 2e6    /* operations of a trial */
-/* BLOCKS_MOST: of a sweep; more would take room and time of their own. */
+/* BLOCKS_MOST: of a sweep, since each block costs some memory and time. */
 enum { BLOCKS_MOST = 1 << 16, TRIALS = 8, STEPS_LEAST = 8, STEPS_MOST = 256 };
 
-/* Trajectories that lie evenly in the sweep, and how many. */
+/* Trajectories that lie evenly in the sweep. */
 typedef struct trials {
     size_t count;
-    double *values, **of; /* TRIALS of each axis */
+    double *values, **of; /* TRIALS values of each axis */
     double until[TRIALS];
 } trials;
 
@@ -43,7 +43,7 @@ static motus_status choose_trials(trials *t, const sweep *s, motus_error *err)
     return room ? MOTUS_OK : complain_memory(err);
 }
 
-/* An ensemble of them, which only counts steps, up to `most` of a trajectory. */
+/* Makes an ensemble that only counts steps, up to `most` for each trajectory. */
 static motus_status make_trial(const sweep *s, int64_t most, motus_ensemble **out, motus_error *err)
 {
     const motus_record steps = {MOTUS_REDUCE_STEPS, 0};
@@ -66,7 +66,7 @@ static motus_status make_trial(const sweep *s, int64_t most, motus_ensemble **ou
     return motus_ensemble_create(s->model.system, &def, out, err);
 }
 
-/* The mean number of steps, of which those that go on are as long as those before. */
+/* Finds the mean number of steps of a trajectory, as if the steps beyond `most` were as long as those before. */
 static motus_status count_steps(const sweep *s, trials *t, double start, int64_t most, double *mean, motus_error *err)
 {
     double steps[TRIALS], stopped[TRIALS], *results[] = {steps};
@@ -90,7 +90,7 @@ static double start_of(const sweep *s)
     return isnan(settings.from) ? 0 : settings.from;
 }
 
-/* The operations of a trajectory. */
+/* Estimates the operations of a trajectory. */
 static motus_status work_of(const sweep *s, double *work, motus_error *err)
 {
     trials t;
@@ -99,7 +99,7 @@ static motus_status work_of(const sweep *s, double *work, motus_error *err)
     double steps = 0;
     motus_status status = choose_trials(&t, s, err);
     if (!status && isnan(s->step)) {
-        /* What this cannot count, the sweep itself will complain of. */
+        /* The sweep itself will report a failure. */
         if (count_steps(s, &t, start, most, &steps, NULL) != MOTUS_OK) steps = 0;
     } else if (!status) {
         for (size_t i = 0; i < t.count; i++) steps += fabs((t.until[i] - start) / s->step) / (double)t.count;

@@ -1,14 +1,15 @@
-/* The table of the events of a sweep, as CSV: the number of the trajectory, and then what the table of a run has.
+/* The table of the events of a sweep, as CSV: the number of the trajectory, and then the columns of the table of a run.
  *
- * Invariants: as those of the file of rows (sweep_file.c), and: the head depends on what the numbers depend on alone;
- * the events of a trajectory are written, and on the disk, before its row is. Behind them stands a line that begins
- * with # and says of how many trajectories they are, at every time: new events are written behind its # first, and then
- * over it. So a file in which that line is missing, and events of trajectories without a row too, has been shortened.
- * Such events are removed by --resume. All above that line has its checks (checks.h), before the rows are written.
+ * Invariants: those of the file of rows (sweep_file.c), and these. The head depends only on what the numbers depend on.
+ * The events of a trajectory are on the disk, with their checks (checks.h), before its row is written. The file always
+ * ends in a line that begins with # and has the number of trajectories whose events are above it: new events and a new
+ * last line are first written behind its #, and their first byte then replaces the #. So a file without that line, and
+ * without events of a trajectory that has no row yet, has been shortened. --resume removes the events of trajectories
+ * without a row.
  *
- * Beside an archive, whose blocks come in any order, a table that is a file is joined from segments when all are there
- * (segments.h); until then it is empty. Segments are written before the rows, but reach the disk when the sweep ends:
- * after a power cut their hashes tell what is there.
+ * Beside an archive, whose blocks come in any order, a table that is a file is joined from segments (segments.h) when
+ * all blocks are there, and is empty until then. Segments are written before the rows, but reach the disk only when the
+ * sweep ends; after a power cut, their hashes show which blocks are whole.
  */
 #include "base/decimal.h"
 #include "base/disk.h"
@@ -60,7 +61,7 @@ static motus_status cannot_write(const sweep_events *f, int code, motus_error *e
     return fail(err, MOTUS_FILE, "cannot write %s: %s", output ? "standard output" : f->path, strerror(code));
 }
 
-/* On the disk before anything that is written from now on. */
+/* Writes the table and its checks to the disk. Returns an errno, or 0. */
 static int synchronise(const sweep_events *f)
 {
     return disk_sync(f->descriptor) && checks_sync(&f->checks) ? 0 : errno;
@@ -73,8 +74,8 @@ static int write_at(const sweep_events *f, uint64_t place, const char *text, siz
                                                             : target_bytes(f->descriptor, text, length, &written);
 }
 
-/* Writes events and the line behind them, `length` bytes in all, over the line that ends the file; the first byte,
- * which was its #, last. Where there is no such line, to a pipe, the events alone. */
+/* Writes events and a new last line, `length` bytes, over the last line of the file; the first byte, in place of the #,
+ * comes last. A pipe has no last line and gets only the events. */
 static motus_status put(sweep_events *f, const char *text, size_t length, size_t events, motus_error *err)
 {
     size_t written;
@@ -96,7 +97,7 @@ static motus_status put(sweep_events *f, const char *text, size_t length, size_t
     return MOTUS_OK;
 }
 
-/* The line behind the events of this many trajectories. Returns its length. */
+/* Writes the last line of a table with the events of so many trajectories. Returns its length. */
 static size_t last_line(uint64_t trajectories, char out[SWEEP_EVENTS_LAST])
 {
     return (size_t)snprintf(out, SWEEP_EVENTS_LAST, SWEEP_EVENTS_END, trajectories);
@@ -157,7 +158,7 @@ static motus_status make_head(sweep_events *f, motus_error *err)
     return status;
 }
 
-/* ---- what an interrupted sweep left ---- */
+/* ---- the table of an interrupted sweep ---- */
 
 static motus_status another(const sweep_events *f, motus_error *err)
 {
@@ -165,7 +166,7 @@ static motus_status another(const sweep_events *f, motus_error *err)
                     "%s is not the table of events of this sweep", f->path);
 }
 
-/* Whether a head of another path to the same model is ours: what follows its first line decides. */
+/* Returns whether two heads are of one sweep. Their first lines may differ by another path to the model. */
 static bool same_head(const char *ours, const char *theirs)
 {
     const char *a = strchr(ours, '\n'), *b = strchr(theirs, '\n');
@@ -186,8 +187,8 @@ static motus_status damaged(const sweep_events *f, motus_error *err)
         "%s is damaged: what is behind its byte %" PRIu64 " is not what was written", f->path, f->checks.end);
 }
 
-/* Behind the head: sets f->bytes behind the complete rows of the first `rows` trajectories. Whether they are all there
- * is known where their events have an end: a later trajectory's, or the last line. */
+/* Reads what follows the head, and sets f->bytes behind the complete events of the first `rows` trajectories. All of
+ * them are there if an event of a later trajectory or the last line follows. */
 static motus_status find_rows(sweep_events *f, uint64_t rows, FILE *in, motus_error *err)
 {
     static const char end[] = SWEEP_EVENTS_WORDS;
@@ -199,7 +200,7 @@ static motus_status find_rows(sweep_events *f, uint64_t rows, FILE *in, motus_er
     bool all = rows == 0;
     if (rows > 0 && f->bytes > 0 && f->checks.missing) return checks_refuse(&f->checks, f->path, err);
     while ((length = getline(&line, &room, in)) > 0) {
-        if (line[0] == '#') { /* where it was being written over, its number may be none */
+        if (line[0] == '#') { /* a line that was being replaced may have no number */
             const bool told = strncmp(line, end, sizeof end - 1) == 0 && line[length - 1] == '\n' &&
                               decimal_read_whole(line + sizeof end - 1, (size_t)length - sizeof end + 1, &number);
             all = !told || number >= rows;
@@ -218,7 +219,7 @@ static motus_status find_rows(sweep_events *f, uint64_t rows, FILE *in, motus_er
     return all ? MOTUS_OK : shortened(f, rows, err);
 }
 
-/* Sets f->bytes behind the events of the first `rows` trajectories; 0: not even the head is complete. */
+/* Sets f->bytes behind the events of the first `rows` trajectories, or to 0 if the head is incomplete. */
 static motus_status find_end(sweep_events *f, uint64_t rows, FILE *in, motus_error *err)
 {
     char *line = NULL;
@@ -263,8 +264,8 @@ static motus_status go_on(sweep_events *f, uint64_t rows, motus_error *err)
     return MOTUS_OK;
 }
 
-/* By the first process, before others write segments. What is replaced is removed at the beginning, so that --resume
- * finds nothing of it. */
+/* Removes what a new sweep replaces, so that --resume will not find it. The first process does so before the others
+ * write segments. */
 static motus_status begin_segments(sweep_events *f, motus_error *err)
 {
     if (f->sweep->options->resume) return MOTUS_OK;
@@ -272,7 +273,7 @@ static motus_status begin_segments(sweep_events *f, motus_error *err)
     return status || ftruncate(f->descriptor, 0) == 0 ? status : cannot_write(f, errno, err);
 }
 
-/* The table is locked until it is joined, and empty where there is none. */
+/* Locks the table until it is joined, and makes an empty one if there is none. */
 static motus_status lock_table(sweep_events *f, motus_error *err)
 {
     const options *o = f->sweep->options;
@@ -281,7 +282,7 @@ static motus_status lock_table(sweep_events *f, motus_error *err)
     return fail(err, MOTUS_ARGUMENT, "%s is named for two outputs", f->path);
 }
 
-/* Removes the table that was made empty, where nothing goes on from it. */
+/* Removes a table that is still empty, unless segments remain that --resume can join. */
 static void unlock_table(const sweep_events *f)
 {
     struct stat own, named;
@@ -299,12 +300,12 @@ motus_status sweep_events_begin(sweep_events *f, const sweep *s, motus_error *er
     if (!status && sweep_events_in_segments(s->options))
         status = segments_make(&f->segments, f->path, f->head, same_head, shard_blocks(&s->shard, s->rows),
                                first_segment(s), err);
-    const bool first = team_first(s->options->team); /* it joins */
+    const bool first = team_first(s->options->team); /* the first process joins the segments */
     if (!status && f->segments && first && !s->options->plan) status = lock_table(f, err);
     struct stat about;
     if (status || !s->options->resume || stat(f->path, &about) != 0) return status;
     if (!f->segments) return find_table(f, 0, err);
-    if (about.st_size == 0 || !first) return MOTUS_OK; /* empty: it is not joined yet */
+    if (about.st_size == 0 || !first) return MOTUS_OK; /* an empty table is not joined yet */
     status = find_table(f, s->rows, err);
     f->complete = !status;
     return status;
@@ -357,7 +358,7 @@ static motus_status put_table(const sweep_events *f, file_out *out, uint64_t fir
     return status;
 }
 
-/* The rows of `count` trajectories, followed by `last`. To be freed. */
+/* Writes the events of `count` trajectories, followed by `last`. The caller frees m->text. */
 static motus_status table_text(const sweep_events *f, uint64_t first, size_t from, size_t count, const char *last,
                                memory *m, motus_error *err)
 {
@@ -367,7 +368,7 @@ static motus_status table_text(const sweep_events *f, uint64_t first, size_t fro
     return memory_close(m, status, err);
 }
 
-/* Block by block. */
+/* Appends events to the segment, block by block. */
 static motus_status to_segments(sweep_events *f, uint64_t first, size_t count, motus_error *err)
 {
     motus_status status = MOTUS_OK;

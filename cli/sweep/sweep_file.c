@@ -1,9 +1,9 @@
 /* The file of a sweep's rows.
  *
- * Invariant: however the program ends, the file holds its head and complete rows; only a kill or a power cut may leave
- * an incomplete last one, which --resume removes. After a failed write the file is cut to its last complete row. The
- * head of a .npy has the number of rows; it is written after them. A row has its check (checks.h) after it is written;
- * before the first one the file of checks is there.
+ * Invariant: however the program ends, the file has its head and complete rows; only a kill or a power cut may leave an
+ * incomplete last row, which --resume removes. After a failed write the file is cut behind its last complete row. The
+ * head of a .npy has the number of rows and is written after them. The check of a row (checks.h) is written after the
+ * row; the file of checks exists before the first row.
  */
 #include "base/decimal.h"
 #include "base/disk.h"
@@ -22,7 +22,6 @@
 
 enum { BUFFER = 1 << 20 };
 
-/* Checks the name before anything is computed. */
 motus_status sweep_file_check(const options *o, motus_error *err)
 {
     const char *path = o->output ? o->output : "-";
@@ -47,7 +46,7 @@ static motus_status cannot_write(const sweep_file *f, int code, motus_error *err
     return fail(err, MOTUS_FILE, "cannot write %s: %s", output ? "standard output" : f->path, strerror(code));
 }
 
-/* The number of complete rows in `count` bytes; *end: where the last of them ends. */
+/* Returns the number of complete rows in `count` bytes, and in *end where the last of them ends. */
 static uint64_t complete_rows(const sweep_file *f, const char *bytes, size_t count, size_t *end)
 {
     uint64_t rows = 0;
@@ -129,11 +128,11 @@ static motus_status go_on(sweep_file *f, uint64_t end, motus_error *err)
     return f->npy ? put_npy_head(f, err) : MOTUS_OK;
 }
 
-/* An archive that is made anew takes the place of the file that was locked. */
+/* Opens an archive. A new archive replaces the file that was locked, and is then locked itself. */
 static motus_status open_archive(sweep_file *f, bool found, bool made, motus_error *err)
 {
     motus_status status = sweep_archive_open(f, found, err);
-    if (status && made && !found) unlink(f->path); /* the lock has made it */
+    if (status && made && !found) unlink(f->path); /* target_lock() has made the file */
     if (status || found) return status;
     close(f->descriptor);
     return target_lock(f->path, &f->descriptor, &f->regular, err);
@@ -148,7 +147,7 @@ motus_status sweep_file_open(sweep_file *f, const sweep *s, motus_error *err)
     f->buffer = f->room ? malloc(f->room) : NULL;
     f->numbers = malloc(s->columns * sizeof *f->numbers);
     if (!f->buffer || !f->numbers) return complain_memory(err);
-    if (!team_first(o->team)) return sweep_archive_open(f, true, err); /* the first has made it, and the lock */
+    if (!team_first(o->team)) return sweep_archive_open(f, true, err); /* rank 0 has made and locked it */
     if (strcmp(f->path, "-") == 0) {
         f->descriptor = STDOUT_FILENO;
         return put_head(f, err);
@@ -156,14 +155,14 @@ motus_status sweep_file_open(sweep_file *f, const sweep *s, motus_error *err)
     const bool made = access(f->path, F_OK) != 0;
     motus_status status = target_lock(f->path, &f->descriptor, &f->regular, err);
     if (status || !f->regular) return status ? status : put_head(f, err);
-    struct stat about; /* checked again under the lock */
+    struct stat about; /* check again: the file may have changed before it was locked */
     status = fstat(f->descriptor, &about) == 0 ? sweep_file_check(o, err) : cannot_write(f, errno, err);
     if (status) return status;
     if (target_archive(f->path)) return open_archive(f, o->resume && about.st_size > 0, made, err);
     return o->resume && about.st_size > 0 ? go_on(f, (uint64_t)about.st_size, err) : put_head(f, err);
 }
 
-/* Writes the rows in the buffer. After a failure the file keeps the complete ones. *rows: in the file. */
+/* Writes the rows in the buffer; after a failure, the file keeps the complete ones. *rows counts those in the file. */
 static motus_status flush(sweep_file *f, uint64_t *rows, motus_error *err)
 {
     size_t written, end;
@@ -193,14 +192,14 @@ static void csv_row(sweep_file *f, size_t i, const sweep_rows *rows)
 {
     const sweep *s = f->sweep;
     const bool stopped = !isnan(rows->stopped[i]);
-    const size_t count = s->columns - 2; /* behind the number of the row; stopped_by is a word */
+    const size_t count = s->columns - 2; /* without the number of the row, and stopped_by, a word */
     sweep_row_numbers(s, rows, i, 1, f->numbers, 0, 1);
     char *out = f->buffer + f->used;
     out += decimal_write_whole(shard_trajectory(&s->shard, f->rows), out);
     for (size_t k = 0; k < count; k++) {
         const bool last = k + 1 == count, none = k < s->grid.count ? false : last ? !stopped : stopped;
         *out++ = ',';
-        if (k + 1 == sweep_ended(s)) /* behind the number of the row */
+        if (k + 1 == sweep_ended(s)) /* column 0 is the number of the row */
             out = put_word(out, motus_ensemble_ended(s->ensemble, i));
         else if (!none)
             out += decimal_write(f->numbers[k], out);
@@ -227,7 +226,7 @@ uint64_t sweep_file_have(const sweep_file *f) { return f->archive ? sweep_archiv
 motus_status sweep_file_rows(sweep_file *f, size_t count, const sweep_rows *given, motus_error *err)
 {
     motus_status status = MOTUS_OK;
-    uint64_t rows = f->rows; /* in the file; f->rows counts those in the buffer too */
+    uint64_t rows = f->rows; /* those in the file; f->rows also counts those in the buffer */
     for (size_t i = 0; i < count; i++) {
         f->stopped += !isnan(given->stopped[i]);
         f->lost += f->sweep->errors && isnan(given->stopped[i]) && sweep_row_lost(f->sweep, given, i);

@@ -1,7 +1,7 @@
 /* The head of a sweep's file: the command in one line, its fingerprint, the names of the columns.
  *
- * Invariant: the head depends only on what the numbers depend on: not on the machine, the threads, the name of the
- * file or interruptions. So two files of the same sweep are equal, and different fingerprints mean different numbers.
+ * Invariant: the head depends only on what the numbers depend on, and not on the machine, the threads, the name of the
+ * file or interruptions. So two files of one sweep are equal, and different numbers have different fingerprints.
  */
 #include "cli/files/command.h"
 #include "cli/run/csv.h"
@@ -41,12 +41,12 @@ static void mix_records(uint64_t *hash, const sweep *s)
 const char *sweep_switches(const sweep *s)
 {
     const motus_switches how = motus_ensemble_now(s->ensemble).switches;
-    const bool fixed = isnan(s->tolerance); /* such steps lead across unless told otherwise */
+    const bool fixed = isnan(s->tolerance); /* fixed steps cross switches by default */
     if (how == MOTUS_SWITCHES_USUAL || (fixed && how == MOTUS_SWITCHES_STEP)) return NULL;
     return how == MOTUS_SWITCHES_LOCATE ? "locate" : "step";
 }
 
-/* The options with every setting of the model and every default in them; their lists are those of the command. */
+/* Returns the options with every setting of the model and every default. They share the lists of s->options. */
 static options settled(const sweep *s)
 {
     options o = *s->options;
@@ -115,7 +115,7 @@ motus_status sweep_head_text(const sweep *s, char **text, motus_error *err)
     options o = settled(s);
     if (o.random.count == 0) o.count = 0;
     o.given[OPTION_seed] = o.random.count > 0 ? "" : NULL;
-    if (!isnan(o.accuracy)) o.tolerance = NAN; /* it was found */
+    if (!isnan(o.accuracy)) o.tolerance = NAN; /* the tolerance was found, not given */
     if (s->every == 1) o.every.steps = 0;
     o.shard = shard_whole(&s->shard) ? NULL : shard_text(&s->shard, part);
     return command_text(&o, text, err);
@@ -152,7 +152,7 @@ static motus_status csv_head(const sweep *s, file_out *f, motus_error *err)
     return status ? status : file_text(f, "\n", err);
 }
 
-/* The words of the numbers in `ended`. */
+/* Writes the words of the numbers in `ended`. */
 static void put_events(const sweep *s, json *j)
 {
     json_open(j, "events", '[');

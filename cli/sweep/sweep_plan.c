@@ -1,8 +1,8 @@
-/* motus sweep --plan: what the sweep would take, from a sample of it that is computed and measured.
+/* motus sweep --plan: what the sweep would take, from a sample that is computed and measured.
  *
- * The sample lies in pieces all over the sweep, because trajectories of different values may differ in their work; how
- * much the pieces differ tells how far the mean may be off. A piece is as large as the batches of the sweep: smaller
- * ones leave more lanes idle. No file is touched.
+ * The pieces of the sample lie all over the sweep, because trajectories with different values may take different work.
+ * The differences of the pieces give the error of the mean. A piece is as large as a batch of the sweep, since smaller
+ * pieces would leave more lanes idle. No file is touched.
  */
 #include "cli/files/stop.h"
 #include "cli/sweep/sweep.h"
@@ -16,17 +16,19 @@
 #include <sys/resource.h>
 
 enum { LEAST_PIECES = 8, PIECES = 4096, MOST_RANKS = 4096, SAMPLE_S = 60, WARM_S = 20 };
-#define PART 1e-4 /* of the sweep */
+#define PART 1e-4 /* the least part of the sweep that is a sample */
 
 typedef struct plan {
     const sweep *sweep;
     sweep_batch batch;
-    sweep_file text;                  /* of a CSV, which is written nowhere; its buffer is NULL: none is wanted */
-    size_t piece, pieces;             /* trajectories of a piece; how many were measured, */
-    uint64_t sampled;                 /*   and how many trajectories */
-    double spent, each[PIECES];       /* seconds of all, and for a trajectory of every piece */
-    double mean, error, bytes, ended; /* seconds, and what they may be off by; of the file; part that stopped */
-    double memory;                    /* bytes of a process */
+    sweep_file text;            /* a CSV that is not kept; if its buffer is NULL, no CSV is wanted */
+    size_t piece, pieces;       /* the trajectories in a piece; the pieces that were measured */
+    uint64_t sampled;           /* the trajectories that were measured */
+    double spent, each[PIECES]; /* seconds: of all pieces, and for a trajectory of each piece */
+    double mean, error;         /* seconds for a trajectory, and their error */
+    double bytes;               /* of the file */
+    double ended;               /* the part of the trajectories that stopped */
+    double memory;              /* bytes of a process */
 } plan;
 
 /* ---- measuring ---- */
@@ -38,7 +40,7 @@ static bool waits_for_compiler(const sweep *s)
            (!s->options->machine || strcmp(s->options->machine, "auto") == 0);
 }
 
-/* Piece k begins there: the multiples of the golden section lie evenly, however many there are. */
+/* Returns where piece k begins. The multiples of the golden section lie evenly, however many there are. */
 static uint64_t place_of(const plan *p, size_t k)
 {
     const double golden = 0.6180339887498949, part = fmod(((double)k + 0.5) * golden, 1);
@@ -47,21 +49,21 @@ static uint64_t place_of(const plan *p, size_t k)
     return at < last ? at : last;
 }
 
-/* Computes piece k, and writes it where a text is wanted, whose numbers take their time to write. */
+/* Computes piece k, and writes it if a CSV is wanted, since writing its numbers takes time too. */
 static motus_status one(plan *p, size_t k, double *seconds, motus_error *err)
 {
     const double began = stop_clock();
     p->text.rows = place_of(p, k);
     motus_status status = sweep_batch_compute(&p->batch, p->sweep, p->text.rows, p->piece, NULL, err);
-    if (status == MOTUS_ACCURACY) status = MOTUS_OK; /* the sweep itself will say so */
+    if (status == MOTUS_ACCURACY) status = MOTUS_OK; /* the sweep itself will report it */
     const sweep_rows rows = sweep_batch_rows(&p->batch);
     if (!status && p->text.buffer) status = sweep_file_rows(&p->text, p->piece, &rows, err);
     *seconds = stop_clock() - began;
     return status;
 }
 
-/* Interpreter and compiled machine differ in their pace, and the sweep soon has the latter, unless it is over before:
- * then nothing may be compiled at all. Pieces become as large as the batches of the sweep. */
+/* Waits for the compiled machine, which is faster, unless the sweep would be over before; and lets pieces become as
+ * large as the batches of the sweep. */
 static motus_status warm_up(plan *p, motus_error *err)
 {
     motus_status status = MOTUS_OK;
@@ -85,7 +87,7 @@ static void count_stopped(plan *p)
     for (size_t i = 0; i < p->piece; i++) p->ended += !isnan(p->batch.stopped[i]);
 }
 
-/* Twice the standard error of the mean of all, of which some were measured. */
+/* Returns twice the standard error of the mean. */
 static double error_of(const plan *p)
 {
     const double n = (double)p->pieces;
@@ -123,45 +125,45 @@ static motus_status sample(plan *p, stop_progress *progress, motus_error *err)
     return status;
 }
 
-/* ---- what follows ---- */
+/* ---- estimates ---- */
 
 static uint64_t blocks_of(const sweep *s) { return shard_blocks(&s->shard, s->rows); }
 
 static double pages(double bytes) { return ceil(bytes / 4096) * 4096; }
 
-/* Of a .npy or an archive, of which no row is written to know it. */
+/* Returns the bytes of a .npy or an archive, which follow from the number of rows. */
 static double bytes_of_file(const sweep *s)
 {
     const double rows = (double)s->rows, numbers = (double)s->columns;
     if (!target_archive(s->options->output)) return SWEEP_NPY_HEAD + rows * numbers * sizeof(double);
     double columns = 0;
-    for (size_t k = 0; k < s->columns; k++) /* the number of a trajectory is one of them */
+    for (size_t k = 0; k < s->columns; k++) /* column 0 is the number of the trajectory */
         columns += pages(rows * (k == s->columns - 1 || k == sweep_ended(s) ? 1 : sizeof(double)));
     return columns + pages(8 * (double)blocks_of(s));
 }
 
-/* The process as it is, with all that it does not use yet. */
+/* Estimates the memory of a process: what it has now, and what it does not use yet. */
 static double memory_of(const plan *p)
 {
-    enum { FILL = 2 << 20 }; /* what making an archive takes */
+    enum { FILL = 2 << 20 }; /* for making an archive */
     struct rusage usage;
     const sweep *s = p->sweep;
     const bool archive = s->options->output && target_archive(s->options->output);
     const double blocks = (double)blocks_of(s), room = (double)(s->columns * s->shard.block * sizeof(double));
-    if (archive) (void)motus_archive_makes(); /* now its libraries are loaded */
+    if (archive) (void)motus_archive_makes(); /* loads the libraries of archives */
     getrusage(RUSAGE_SELF, &usage);
     return (archive ? FILL : 0) + (double)usage.ru_maxrss * 1024 + (double)sweep_batch_bytes(&p->batch, s) + room +
            8 * blocks;
 }
 
-/* By so many processes of as many threads; one of them has at least one block. */
+/* Returns the seconds that `ranks` processes take, each with our number of threads. A process has at least a block. */
 static double seconds_by(const plan *p, int ranks)
 {
     const double rows = (double)p->sweep->rows;
     return p->mean * fmax(rows / ranks, fmin(rows, (double)p->sweep->shard.block));
 }
 
-/* ---- telling ---- */
+/* ---- the report ---- */
 
 static const char *size_text(double bytes, char out[DECIMAL_MAX])
 {
@@ -273,7 +275,7 @@ static void report(const plan *p)
            now.threads == 1 ? "" : "s");
 }
 
-/* The rows of a CSV go to a file that keeps nothing. */
+/* Opens /dev/null for the rows of a CSV, if one is wanted. */
 static motus_status open_text(plan *p, sweep *of, options *o, motus_error *err)
 {
     const char *path = p->sweep->options->output;

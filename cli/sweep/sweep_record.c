@@ -1,11 +1,11 @@
 /* The items of --record:
  *
  *     final   NAME   final(NAME)   min(NAME)   max(NAME)   mean(NAME)   time_of_min(NAME)   time_of_max(NAME)
- *     count(EVENT)   time(EVENT)   at(EVENT, EXPRESSION)   and so on: what events keep, load.h
+ *     count(EVENT)   time(EVENT)   at(EVENT, EXPRESSION)   and so on: see load.h
  *     steps   rejected   h_min   h_max   evaluations   reached   tolerance   ended
  *
- * Invariant: a name stands for all its numbers, as in --columns of motus run. Where the model has a column of the name
- * `steps`, that column is meant.
+ * Invariant: a name stands for all its numbers, as in --columns of motus run. If the model has a column with the name
+ * `steps`, that column is recorded.
  */
 #include "base/near.h"
 #include "cli/sweep/sweep.h"
@@ -29,7 +29,7 @@ static const struct {
 };
 enum { REDUCTIONS = sizeof reductions / sizeof *reductions };
 
-/* What is recorded of the trajectory itself, by the words of run --json. */
+/* Numbers of the trajectory itself, with the words of `motus run --json`. */
 static const char *const of_trajectory[] = {"steps",       "rejected", "h_min",    "h_max",
                                             "evaluations", "reached",  "tolerance"};
 enum { OF_TRAJECTORY = sizeof of_trajectory / sizeof *of_trajectory };
@@ -124,7 +124,7 @@ motus_status sweep_records_read(sweep_records *r, const load *m, const char *lis
     for (size_t i = 0; !status && i < items.count; i++)
         status = one(r, m, items.text + (items.items[i] - items.text), err);
     words_free(&items);
-    /* behind them, for an accuracy */
+    /* SWEEP_REACHED and SWEEP_TOLERANCE, behind the others */
     if (!status) status = add(r, MOTUS_REDUCE_ACCURACY, 0, 1, err);
     if (!status) status = add(r, MOTUS_REDUCE_TOLERANCE, 0, 1, err);
     if (!status) r->count -= SWEEP_JUDGED;

@@ -1,4 +1,4 @@
-/* What a sweep says when it has ended, and how its work was shared among the processes of a team. */
+/* The report of a sweep that has ended, and of how the processes of a team shared its work. */
 #include "base/decimal.h"
 #include "cli/model/settle.h"
 #include "cli/sweep/sweep.h"
@@ -11,7 +11,7 @@
 
 #define MICRO 1e6
 
-/* A number of the process `rank`, known to all. */
+/* Returns the number that the process `rank` passes as `mine`. */
 static uint64_t tell(const team *t, int rank, uint64_t mine) { return t->sum(t->context, t->rank == rank ? mine : 0); }
 static double tell_seconds(const team *t, int rank, double mine)
 {
@@ -90,7 +90,7 @@ static void report_json(const sweep *s, const sweep_file *f, double wall, const 
 static void report(const sweep *s, const sweep_file *f, double wall)
 {
     const motus_ensemble_statistics now = motus_ensemble_now(s->ensemble);
-    bool output = strcmp(f->path, "-") == 0; /* then the report is a message */
+    bool output = strcmp(f->path, "-") == 0; /* the rows went to standard output, so the report must not */
     FILE *out = output ? stderr : stdout;
     char step[DECIMAL_MAX], until[DECIMAL_MAX], inside[DECIMAL_MAX], all[DECIMAL_MAX], shard[SHARD_TEXT];
     const double work = (double)(s->rows - f->found) * (double)now.steps;
@@ -106,7 +106,7 @@ static void report(const sweep *s, const sweep_file *f, double wall)
             step, s->absolute ? " absolute" : "");
     if (now.steps > 0) fprintf(out, "%lld steps ", (long long)now.steps);
     fprintf(out, "to t = %s, ", isnan(s->until) ? "its own end" : until);
-    const bool elsewhere = f->archive && (f->found > 0 || s->options->team); /* its trajectories lie among others */
+    const bool elsewhere = f->archive && (f->found > 0 || s->options->team); /* other trajectories lie between ours */
     if (now.compiled_from > 0 && elsewhere)
         fputs("interpreter, then compiled", out);
     else if (now.compiled_from > 0)

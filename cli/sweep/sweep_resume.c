@@ -1,7 +1,7 @@
-/* The complete rows in the file of an interrupted sweep, from its beginning to the first that is not one.
+/* The complete rows in the file of an interrupted sweep, up to the first row that is incomplete.
  *
- * Invariant: a file with another fingerprint, or that is not a sweep's, is refused and not changed. No row is taken
- * whose bytes do not have their check.
+ * Invariant: a file with another fingerprint, or that is not from a sweep, is an error and remains unchanged. A row
+ * counts only if its bytes match their check.
  */
 #include "base/decimal.h"
 #include "cli/files/file.h"
@@ -16,7 +16,7 @@
 
 enum { CHUNK = 1 << 20 };
 
-/* Reads up to `count` bytes from `place`; fewer at the end of the file; -1: cannot be read. */
+/* Reads `count` bytes from `place`, or fewer at the end of the file. Returns how many, or -1 after a failure. */
 static ssize_t read_at(const sweep_file *f, char *out, size_t count, uint64_t place, motus_error *err)
 {
     size_t done = 0;
@@ -45,12 +45,12 @@ static motus_status another(const sweep_file *f, const char *command, motus_erro
 
 /* ---- CSV ---- */
 
-/* The length of the head, or 0 if the file ends within it. A first line that differs, as by another path to the same
- * model, does not matter: the fingerprint decides. */
+/* Finds the length of the head, or 0 if the file ends within it. The first line may differ, for example by another path
+ * to the model: the fingerprint decides. */
 static motus_status csv_head(const sweep_file *f, uint64_t end, size_t *length, motus_error *err)
 {
     const sweep *s = f->sweep;
-    size_t room = s->head_length + 65536; /* its path to the model may be longer */
+    size_t room = s->head_length + 65536; /* a longer path may lead to the model */
     char *text = malloc(room + 1);
     if (!text) return complain_memory(err);
     ssize_t got = read_at(f, text, room, 0, err);
@@ -63,7 +63,7 @@ static motus_status csv_head(const sweep_file *f, uint64_t end, size_t *length, 
         *length = 0;
     else if (!status) {
         text[got] = 0;
-        /* "# command \n# motus … \nnames\n" */
+        /* "# command\n# motus …\nnames\n" */
         char *second = strchr(text, '\n'), *names = second ? strchr(second + 1, '\n') : NULL,
              *last = names ? strchr(names + 1, '\n') : NULL;
         if (strncmp(text, "# motus sweep ", 14) != 0 || !last)
@@ -81,12 +81,12 @@ static motus_status csv_head(const sweep_file *f, uint64_t end, size_t *length, 
 
 /* A row while it is read. */
 typedef struct scan {
-    char number[DECIMAL_MAX]; /* the index it has to begin with */
-    size_t at, commas;
-    size_t last, ended; /* the numbers of the last comma, and of that before the event that ended the trajectory */
+    char number[DECIMAL_MAX]; /* the index with which the row must begin */
+    size_t at, commas;        /* the bytes and the commas that were read */
+    size_t last, ended;       /* the commas before stopped_by, and before `ended` */
     bool good, stopped;
-    char word[16], event[MOTUS_NAME_MAX]; /* behind them */
-    size_t letters;                       /* of the present one */
+    char word[16], event[MOTUS_NAME_MAX]; /* stopped_by and `ended` */
+    size_t letters;                       /* of the present word */
 } scan;
 
 static void scan_row(scan *r, uint64_t number, const sweep *s)
@@ -124,7 +124,7 @@ static void scan_byte(scan *r, char c)
     r->commas += c == ',';
 }
 
-/* The cause that ends the row; MOTUS_CAUSE_COUNT: it is none. */
+/* Returns the cause at the end of the row; MOTUS_CAUSE_COUNT: the word is not a cause. */
 static int scan_cause(const scan *r)
 {
     int k = 0;
@@ -132,7 +132,7 @@ static int scan_cause(const scan *r)
     return k;
 }
 
-/* The complete rows before the byte `end`. */
+/* Finds the complete rows before the byte `end`. */
 static motus_status csv_rows(sweep_file *f, uint64_t end, motus_error *err)
 {
     char *chunk = malloc(CHUNK);
@@ -167,7 +167,7 @@ static motus_status csv_rows(sweep_file *f, uint64_t end, motus_error *err)
 
 /* ---- .npy ---- */
 
-/* Checks the fingerprint in the .json beside it. */
+/* Checks the fingerprint in the .json beside a .npy. */
 static motus_status npy_beside(const sweep_file *f, motus_error *err)
 {
     char *path = target_beside(f->path), *text = NULL, key[128], part[SHARD_TITLE];
@@ -189,8 +189,8 @@ static motus_status npy_beside(const sweep_file *f, motus_error *err)
     return status;
 }
 
-/* Counts the rows whose last number but one, the time at which the trajectory stopped, is not NaN, and the causes
- * behind it. */
+/* Counts the trajectories that stopped, by their causes: the last two numbers of a row are the time, NaN if the
+ * trajectory did not stop, and the cause. */
 static motus_status npy_stopped(sweep_file *f, uint64_t rows, uint64_t width, motus_error *err)
 {
     size_t at_once = width < CHUNK ? CHUNK / width : 1;
@@ -213,7 +213,7 @@ static motus_status npy_stopped(sweep_file *f, uint64_t rows, uint64_t width, mo
     return status;
 }
 
-/* Holds the file of this length against its checks: *end becomes where they end. A file without a row needs none. */
+/* Reduces *end, the length of the file, to where its bytes match their checks. A file without rows needs no checks. */
 static motus_status find_checks(sweep_file *f, uint64_t head, uint64_t *end, motus_error *err)
 {
     const motus_status status = checks_find(&f->checks, f->path, f->descriptor, f->npy ? head : 0, err);

@@ -1,7 +1,7 @@
-/* The points of --section of all trajectories of a sweep, drawn in one plane: each trajectory in its colour; or, with a
- * varied number as one axis, as a bifurcation diagram.
+/* The points of --section of all trajectories of a sweep, in one plane. Each trajectory has its colour; if one axis is
+ * a varied number, the picture is a bifurcation diagram.
  *
- * Invariant: the points are in the order of the trajectories, and of a trajectory in the order of time.
+ * Invariant: the points are in the order of the trajectories, and those of a trajectory in the order of time.
  */
 #include "cli/draw/plot.h"
 #include "cli/run/figure.h"
@@ -33,7 +33,7 @@ motus_status sweep_section_check(const options *o, motus_error *err)
     return plot_check(o->plot, err);
 }
 
-/* The axis of the picture that --plot-of gives a varied number: 0 or 1; 2: none. The other name is the column. */
+/* Finds which names of --plot-of are varied numbers. If one is, the other name is a column. */
 static motus_status varied_axis(sweep_section *p, const char *text, motus_error *err)
 {
     options_list names;
@@ -80,7 +80,7 @@ motus_status sweep_section_open(sweep_section *p, motus_error *err)
     return p->values ? file_create(&p->file, s->options->plot, err) : complain_memory(err);
 }
 
-/* Room for one more point. */
+/* Adds a point, with numbers that are not set yet. Returns NULL if memory runs out. */
 static double *point(sweep_section *p)
 {
     if (p->count == p->room) {
@@ -94,7 +94,7 @@ static double *point(sweep_section *p)
     return p->points + NUMBERS * p->count++;
 }
 
-/* The number by which a trajectory has its colour. */
+/* Returns the number that gives a trajectory its colour. */
 static double shade_of(const sweep *s, uint64_t first, size_t k, double *const *values)
 {
     return s->grid.count == 1 ? values[0][k] : (double)shard_trajectory(&s->shard, first + k);
@@ -119,7 +119,7 @@ motus_status sweep_section_take(sweep_section *p, uint64_t first, size_t count, 
     return MOTUS_OK;
 }
 
-/* The name of an axis of the picture. */
+/* Writes the name of an axis of the picture. */
 static motus_status name_of(const sweep_section *p, size_t a, char out[PLOT_LABEL])
 {
     motus_column column = motus_default_column();

@@ -1,6 +1,6 @@
-/* motus archive: what an archive has; its rows as CSV, its model, or its state.
+/* motus archive: what an archive contains; its rows as CSV, its model, or its state.
  *
- * Invariant: the CSV is, byte for byte, what the sweep would have written into a file whose name ends in .csv.
+ * Invariant: the CSV is, byte for byte, what the sweep would have written to a file whose name ends in .csv.
  */
 #include "base/decimal.h"
 #include "cli/files/archived.h"
@@ -22,10 +22,10 @@ typedef struct contents {
     const options *options;
     motus_archive *file;
     uint64_t blocks, missing, first_missing;
-    uint64_t damaged; /* of those missing: they have a hash, but not that of their bytes */
-    uint64_t *whole;  /* the others */
+    uint64_t damaged; /* of the missing blocks, those with a hash that does not match their bytes */
+    uint64_t *whole;  /* the numbers of the blocks that are not missing */
     size_t columns;
-    bool run; /* it is that of a run, not of a sweep */
+    bool run; /* the archive is that of a run, not of a sweep */
     archive_verified verified;
 } contents;
 
@@ -35,14 +35,14 @@ static const char *said(const contents *c, const char *name)
     return text ? text : "";
 }
 
-/* Which blocks are there, by their hashes. */
+/* Finds the blocks whose hashes match their bytes. */
 static motus_status find_blocks(contents *c, stop_progress *progress, motus_error *err)
 {
     c->whole = calloc((size_t)c->blocks + 1, sizeof *c->whole);
     motus_status status = c->whole ? MOTUS_OK : complain_memory(err);
     for (uint64_t b = 0; !status && b < c->blocks; b++) {
         int written, whole;
-        /* In this order, since another program may be writing it: a block has its hash last. */
+        /* In this order, since another program may be writing the block, and writes its hash last. */
         status = motus_archive_written(c->file, b, &written, err);
         if (!status) status = motus_archive_whole(c->file, b, &whole, err);
         if (!status) status = archived_numbers(c->file, c->options->operand, b, err);
@@ -78,11 +78,12 @@ static motus_status put_head(const contents *c, file_out *out, motus_error *err)
 
 typedef struct table {
     motus_archive_column column;
-    const unsigned char *words; /* NULL: it has numbers */
-    double *numbers;            /* the room of either */
+    const unsigned char *words; /* `numbers` of a column of words; NULL: the column has numbers */
+    double *numbers;            /* memory for a block */
 } table;
 
-/* A number, or nothing where a trajectory that stopped has none, and where one did not stop. */
+/* Writes a cell: empty for a number that a trajectory does not have since it stopped, or for the time at which it
+ * stopped if it did not. */
 static motus_status put_cell(const table *t, size_t i, bool stopped, bool time_stopped, file_out *out, motus_error *err)
 {
     char text[DECIMAL_MAX + 2] = ",";
@@ -159,7 +160,7 @@ static motus_status check_sweep(const contents *c, motus_error *err)
     return fail(err, MOTUS_STATE, "%s is not the archive of a sweep", c->options->operand);
 }
 
-/* By which option the file's own command computes what is missing. */
+/* Returns the options with which the archive's own command computes the missing blocks. */
 static const char *again(const contents *c)
 {
     if (motus_archive_compressed(c->file)) return "--force --compress";
@@ -176,7 +177,7 @@ static motus_status incomplete(const contents *c, motus_error *err)
 
 typedef enum wanted { ROWS, MODEL, STATE, NOTHING } wanted;
 
-/* What the file is to have, by its name. */
+/* Returns what to write, by the ending of the file's name. */
 static wanted by_name(const contents *c)
 {
     const char *name = c->options->output, *end = strrchr(name, '.');
@@ -210,7 +211,7 @@ static motus_status extract(const contents *c, stop_progress *progress, motus_er
     return status;
 }
 
-/* ---- what it has ---- */
+/* ---- the report ---- */
 
 static void report_json(const contents *c)
 {
@@ -277,8 +278,8 @@ static void report(const contents *c)
         puts("\nthe command with -o and --resume computes what is missing");
 }
 
-/* A block of a sweep is written once. The last one of a run is written again when the run goes on, which may be
- * killed. */
+/* Fails if a block of a sweep is damaged. A run that continues writes its last block again, so a kill may leave that
+ * block damaged. */
 static motus_status judge(const contents *c, motus_error *err)
 {
     if (c->run || !c->damaged) return MOTUS_OK;

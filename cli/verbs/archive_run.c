@@ -1,4 +1,4 @@
-/* motus archive of the archive of a run. */
+/* motus archive, for the archive of a run. */
 #include "cli/verbs/archive.h"
 
 #include "cli/run/run.h"
@@ -97,7 +97,7 @@ bool archive_run_goes_on(motus_archive *a, bool missing, uint64_t first_missing)
         run_state s;
         if (missing) motus_archive_block(a, first_missing, &rows, &count);
         good = motus_archive_saved(a, back, &bytes, &length, &ignored) == MOTUS_OK && bytes &&
-               run_state_read(bytes, length, &s) && s.rows - s.rest_length / width <= rows; /* the others it has */
+               run_state_read(bytes, length, &s) && s.rows - s.rest_length / width <= rows; /* the state has the rest */
         free(bytes);
     }
     return good;

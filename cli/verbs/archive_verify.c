@@ -1,6 +1,6 @@
-/* motus archive --verify: blocks of an archive are computed again.
+/* motus archive --verify: computes blocks of an archive again.
  *
- * Invariant: whatever the command of a file says, no file is written by it.
+ * Invariant: no file is written, whatever the command in the archive says.
  */
 #include "cli/verbs/archive.h"
 
@@ -15,13 +15,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The sweep that made an archive, by the command and the model that it has. */
+/* The sweep that made an archive, by the command and the model in the archive. */
 typedef struct origin {
     sweep sweep;
-    options options; /* of its command, but with threads and machine of the one that asks; of no file of results */
+    options options; /* of that command, without files of results, and with our threads and machine */
     char *words;     /* of the command */
     options_list argv;
-    stop_progress progress; /* shows nothing, and hears of signals */
+    stop_progress progress; /* shows nothing, but obeys signals */
 } origin;
 
 static motus_status no_command(motus_error *err)
@@ -29,7 +29,7 @@ static motus_status no_command(motus_error *err)
     return fail(err, MOTUS_STATE, "the archive does not say which sweep made it");
 }
 
-/* The options of its command, without those that name files of results. */
+/* Reads the options of the command, without those that name files of results. */
 static motus_status read_command(origin *g, const char *command, const options *asked, motus_error *err)
 {
     motus_status status = words_split(command, &g->words, &g->argv, err);
@@ -55,7 +55,8 @@ static motus_status other_sweep(const char *version, motus_error *err)
     return MOTUS_STATE;
 }
 
-/* Call origin_close() in any case. MOTUS_STATE: the command does not make what the archive says that it is. */
+/* Prepares the sweep that made an archive. MOTUS_STATE: its command does not make this archive. Call origin_close() in
+ * any case. */
 static motus_status origin_open(origin *g, motus_archive *a, const options *asked, motus_error *err)
 {
     *g = (origin){0};
@@ -105,7 +106,7 @@ motus_status archive_verify_part(const char *text, double *part, motus_error *er
     return MOTUS_OK;
 }
 
-/* A number from 0 to 1 that is another one each time. */
+/* Returns a number from 0 to 1, another one at each call. */
 static double somewhere(void) { return fmod(stop_clock() * 1e6, 1); }
 
 motus_status archive_verify(motus_archive *a, const options *o, const uint64_t *blocks, uint64_t count,
@@ -137,7 +138,7 @@ motus_status archive_verify(motus_archive *a, const options *o, const uint64_t *
     return status;
 }
 
-/* A run that went on is computed to its first end, with the rows before it. */
+/* Ends a run that was continued at its first end, and limits *rows to those before that end. */
 static void up_to_first_end(options *o, motus_archive *a, uint64_t *rows)
 {
     const char *text = motus_archive_note_of(a, RUN_FIRST_END);

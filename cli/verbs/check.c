@@ -1,7 +1,7 @@
 /* motus check: the equations that the program read, their properties, which methods the model admits, and which one
- * auto takes.
+ * `auto` takes.
  *
- * Invariant: the reasons are the library's, the same that a run would give.
+ * Invariant: the reasons are those of the library, which a run gives too.
  */
 #include "cli/files/file.h"
 #include "cli/model/load.h"
@@ -12,9 +12,9 @@
 
 #include <stdio.h>
 
-#define TOLERANCE 1e-10 /* the first that is tried for the accuracy 1e-9, which a run has where nobody gives one */
+#define TOLERANCE 1e-10 /* the first that is tried for the accuracy 1e-9, the default of a run */
 
-/* The run that auto would choose; NULL: none, and the error says why. */
+/* Makes the run that `auto` would choose. Returns NULL if there is none; the error says why. */
 static motus_run *auto_run(const load *m, motus_error *why)
 {
     motus_run *run = NULL;
@@ -70,7 +70,7 @@ static void print_json(const options *o, const load *m)
     json_end(&j);
 }
 
-/* "x' = 0, where sign(x') changes: adaptive methods end their steps there; …" */
+/* Prints lines such as "x' = 0, where sign(x') changes: adaptive methods end their steps there; …" */
 static void print_switches(const load *m, const char *strong, const char *plain)
 {
     static const char *const sliding[] = {"", "",

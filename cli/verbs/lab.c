@@ -1,8 +1,8 @@
-/* motus lab: the page of the lab with a model in it, written and opened.
+/* motus lab: writes the page of the lab with a model in it, and opens it.
  *
  * Invariant: the model and the options are checked before anything is written; the page is then written completely or
- * not at all. It is as it was built, except for the start in its one empty meta element; the only character of the
- * start with a meaning in HTML is &, which is written &amp;.
+ * not at all. Only one empty meta element of the built page changes: it gets the start, the fragment of a link with the
+ * model. The only character of the start with a meaning in HTML is &, which is written &amp;.
  */
 #include "base/platform.h"
 #include "cli/files/file.h"
@@ -18,17 +18,17 @@
 #include <string.h>
 #include <unistd.h>
 
-/* ---- the page, as `make lab` builds it, and the place in it for the model that it opens with ---- */
+/* ---- the page, as `make lab` builds it ---- */
 
 typedef struct lab_page {
     char *path, *text;
-    size_t length, place; /* bytes; the start is inserted before byte `place` */
+    size_t length, place; /* the start is inserted before the byte `place` */
 } lab_page;
 
 #define PAGE_MAX ((size_t)16 << 20) /* bytes of a page */
 enum { PATH_ROOM = 4096 };
 
-/* The folder of the program, from the system, else from the name it was called with. */
+/* Finds the folder of the program, by the system or else by the name with which it was called. */
 static bool program_folder(const char *called, char out[PATH_ROOM])
 {
     char found[PATH_ROOM];
@@ -71,7 +71,7 @@ static motus_status not_a_page(const lab_page *p, const char *why, motus_error *
     return complain(err, MOTUS_FILE, "make lab builds it anew", "%s is not the page of the lab: %s", p->path, why);
 }
 
-/* Reads the page named by $MOTUS_LAB_PAGE, else that beside the program, else the installed one. `program` is argv[0].
+/* Reads the page that $MOTUS_LAB_PAGE names, or that beside the program, or the installed one. `program` is argv[0].
  * Call page_free() also after a failure. */
 static motus_status page_read(lab_page *p, const char *program, motus_error *err)
 {
@@ -97,7 +97,7 @@ static void page_free(lab_page *p)
     *p = (lab_page){0};
 }
 
-/* Writes the page with a start: a fragment (cli/model/share.h) without its #, or "". */
+/* Writes the page with a start: a fragment (cli/model/share.h) without its #, or "" for none. */
 static motus_status page_write(const lab_page *p, const char *start, file_out *f, motus_error *err)
 {
     motus_status status = file_write(f, p->text, p->place, err);
@@ -165,7 +165,7 @@ static motus_status print_path(const job *j, motus_error *err)
         json_string(&out, "output", j->output);
         json_end(&out);
     } else if (!j->options->quiet) {
-        /* a script needs the exact name; a terminal must not get control characters in it */
+        /* a script needs the exact name; a terminal must not get its control characters */
         if (isatty(STDOUT_FILENO))
             text_put(stdout, j->output);
         else
@@ -192,7 +192,7 @@ static motus_status write_page(job *j, motus_error *err)
     if (!status) status = file_finish(&j->file, err);
     if (!status && stop_requested()) status = fail(err, MOTUS_CANCELLED, "cancelled");
     if (!status) status = print_path(j, err);
-    bool regular = !j->file.direct; /* not a device or pipe */
+    bool regular = !j->file.direct; /* not a device or a pipe */
     if (!status) status = file_keep(&j->file, err);
     if (!status && regular && !j->options->no_open) show(j);
     return status;

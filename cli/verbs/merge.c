@@ -1,6 +1,6 @@
 /* motus merge: joins the shards of a sweep to the file of the whole sweep.
  *
- * Invariant: the merged file is, byte for byte, what one command without --shard writes. It gets its name only when it
+ * Invariant: the merged file is, byte for byte, what the command without --shard writes. It gets its name only when it
  * is complete.
  */
 #include "cli/files/stop.h"
@@ -16,9 +16,9 @@
 
 typedef struct merge {
     const options *options;
-    part *parts, **of; /* of: the part that is shard k + 1; NULL: it is missing */
+    part *parts, **of; /* of[k] is the part with shard k + 1; NULL: the shard is missing */
     size_t count;
-    uint64_t missing; /* blocks that are in no part */
+    uint64_t missing; /* blocks that no part has */
 } merge;
 
 static motus_status foreign(const part *a, const part *b, motus_error *err)
@@ -39,7 +39,7 @@ static motus_status foreign(const part *a, const part *b, motus_error *err)
     return MOTUS_STATE;
 }
 
-/* Gives each shard its part: there must be exactly one; with --partial at most one. */
+/* Finds the part of each shard: there must be exactly one, or with --partial at most one. */
 static motus_status arrange(merge *m, motus_error *err)
 {
     char text[SHARD_TEXT];
@@ -87,7 +87,7 @@ static motus_status check(const options *o, motus_error *err)
     return target_check(o, o->output, err);
 }
 
-/* A .npy and an archive are known by their names. */
+/* Checks that the ending of the output's name fits the shards. */
 static motus_status check_name(const merge *m, motus_error *err)
 {
     static const char *const kinds[] = {"CSV", "CSV", ".npy", "archives"}, *const ends[] = {"csv", "csv", "npy", "h5"};
@@ -189,7 +189,7 @@ static motus_status write_all(merge *m, stop_progress *progress, motus_error *er
     return status;
 }
 
-/* A shard without checks is taken, and that is said. */
+/* Prints a note if shards without checks were merged. */
 static void note_unchecked(const merge *m)
 {
     size_t count = 0;

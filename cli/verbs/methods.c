@@ -44,7 +44,7 @@ static motus_status print_catalogue(const options *o, motus_error *err)
         char limit[DECIMAL_MAX], evaluations[DECIMAL_MAX];
         limit_text(m->stability_limit, limit);
         evaluations_text(m->evaluations, evaluations);
-        bool counted = m->order > 0; /* the exact motion has no order and takes no stages */
+        bool counted = m->order > 0; /* the exact motion has no order and no stages */
         table_cell(t, m->name);
         if (counted) {
             table_integer(t, m->order);

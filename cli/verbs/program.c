@@ -1,6 +1,6 @@
-/* The program: it calls the verb.
+/* The program, which calls the verb.
  *
- * Invariant: errors are printed once, here; the exit status follows from the error's.
+ * Invariant: an error is printed once, here, and decides the exit status.
  */
 #include "base/near.h"
 #include "cli/files/file.h"
@@ -64,7 +64,7 @@ static void print_version(bool as_json)
     json_end(&j);
 }
 
-/* motus [--help | --version | --options | help [VERB]] */
+/* Does motus [--help | --version | --options | help [VERB]]. Returns whether the words were one of these. */
 static bool general(int argc, char **argv, bool as_json)
 {
     const char *word = argc > 1 ? argv[1] : "";
@@ -98,7 +98,7 @@ static motus_status dispatch(int argc, char **argv, bool as_json, bool *answered
     o.json = o.json || as_json;
     o.answered = answered;
     o.team = t;
-    /* without standard output nobody asks for a report beside a file */
+    /* if standard output is closed, nobody wants a report besides a file */
     const bool file = o.output || o.plot || o.events || o.save_state;
     o.quiet = o.quiet || !team_first(t) || (file && file_output_closed());
     if (!status && o.help) {

@@ -1,7 +1,7 @@
 /* Messages of the program.
  *
- * Invariant: an error is printed once, with its place as file:line:column, the line, a caret and the hint; all text
- * passes text_put(), since it may come from a model or a file name.
+ * Invariant: an error is printed once: its place as file:line:column, its message, the line of the text with a caret,
+ * and the hint. All of them pass text_put(), since they may contain words of a model or a file name.
  */
 #include "cli/words/complain.h"
 
@@ -22,8 +22,8 @@ bool complain_colours(int descriptor)
     return isatty(descriptor) && !(no && *no) && !(terminal && strcmp(terminal, "dumb") == 0);
 }
 
-/* The library speaks of its definitions: "`until` of the definition", "`until = 3` of the definition", "`switches =
- * MOTUS_SWITCHES_STEP` of the definition". Here their members are options: --until, --until 3, --switches step. */
+/* "`until` of the definition" becomes --until, "`until = 3` of the definition" --until 3, and "`switches =
+ * MOTUS_SWITCHES_STEP` of the definition" --switches step. */
 void complain_named(const char *text, char *out, size_t size)
 {
     static const char of[] = "` of the definition";
@@ -62,7 +62,7 @@ void complain_json(json *j, const char *key, const motus_error *err)
     json_close(j, '}');
 }
 
-/* False: it could not be written. */
+/* Returns false if it cannot write. */
 static bool show_json(const motus_error *err)
 {
     json j = text_json(stdout);

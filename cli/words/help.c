@@ -1,5 +1,4 @@
-/* The text of --help: a verb's use, its options, and examples, which the tests run. Verbs and options are those of
- * cli/words/options.def. */
+/* The text of --help: what a verb does, its options, and examples, which the tests run. */
 #include "cli/words/options.h"
 
 typedef struct page {

@@ -13,7 +13,7 @@ static bool matches(const option *o, const char *name)
     return strcmp(o->name, name) == 0 || (o->brief && strcmp(o->brief, name) == 0);
 }
 
-/* Another verb has the option. */
+/* Makes the error for an option that only other verbs have. */
 static motus_status not_here(const char *name, unsigned verb, motus_error *err)
 {
     char its[128] = "";
@@ -31,7 +31,7 @@ static motus_status not_here(const char *name, unsigned verb, motus_error *err)
     return MOTUS_ARGUMENT;
 }
 
-/* The row of the option `name` of this verb, or an error that says why there is none. */
+/* Finds the row of this verb's option `name`. */
 static motus_status find(const char *name, unsigned verb, size_t *found, motus_error *err)
 {
     const char *elsewhere = NULL, *near = NULL;
@@ -106,7 +106,6 @@ motus_bars options_bars(const options *o)
 
 /* ---- options that do not go together ---- */
 
-/* A link has a model, its settings and methods; and --share computes nothing that could be written. */
 static motus_status check_share(const options *o, motus_error *err)
 {
     for (size_t k = 0; k < OPTION_COUNT; k++) {
@@ -119,7 +118,7 @@ static motus_status check_share(const options *o, motus_error *err)
     return MOTUS_OK;
 }
 
-/* What is said where options do not go together, and what would be right. */
+/* Options that do not go together. */
 typedef struct rule {
     bool broken;
     const char *what, *right;

@@ -1,4 +1,4 @@
-/* The command line, read once into one struct, and the table of options that it is read by. */
+/* The command line, read once into one struct, and the table of options, by which it is read. */
 #ifndef CLI_WORDS_OPTIONS_H
 #define CLI_WORDS_OPTIONS_H
 
@@ -8,7 +8,7 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-/* Verbs, as bits, so that an option can have several: VERB_RUN, VERB_SWEEP … */
+/* Verbs are bits, since an option can have several: VERB_RUN, VERB_SWEEP … */
 enum {
 #define VERB(bit, ...) VERB_NUMBER_##bit,
 #include "cli/words/options.def"
@@ -23,19 +23,19 @@ enum {
 typedef struct options_list {
     const char **items;
     size_t count;
-    char *text; /* the memory of the items; NULL: they lie elsewhere */
+    char *text; /* the memory of the items; NULL: the list does not own it */
 } options_list;
 
-/* What a value is, and its type in C; where none is given it is 0, and NaN where the type says so. */
+/* The kinds of values; TYPE_… are their types in C. A value that is not given is 0, or NaN if its kind says so. */
 typedef enum option_kind {
     FLAG,
     WORD,
     CHOICE,     /* one of option.choices */
-    NUMBER,     /* NaN */
-    POSITIVE,   /* likewise */
-    LENGTH,     /* a number above 0 */
-    TOLERANCE,  /* NaN; with options.absolute */
-    ACCURACIES, /* coarsest NaN; likewise */
+    NUMBER,     /* NaN if not given */
+    POSITIVE,   /* a number above 0; NaN if not given */
+    LENGTH,     /* a number above 0; 0 if not given */
+    TOLERANCE,  /* as POSITIVE; sets options.absolute too */
+    ACCURACIES, /* two numbers as POSITIVE; sets options.absolute too */
     COUNT,
     SEED,
     EVERY,
@@ -63,42 +63,43 @@ typedef struct options_range {
     double coarsest, finest;
 } options_range;
 typedef struct options_period {
-    double time; /* of the motion, or seconds; 0: it is counted in steps */
+    double time; /* of the motion, or seconds; 0: the period is counted in steps */
     int64_t steps;
 } options_period;
 
-/* Of what an option is a setting. An archive says those of the motion and of its rows; the others are those of the
- * command that reads it or goes on with it. */
+/* What an option sets. An archive decides OF_MOTION and OF_ROWS; the command that reads or continues it decides the
+ * others. */
 enum {
-    OF_MOTION = 1,   /* the numbers of the rows change: the fingerprint does, and the command in a file says it */
-    OF_ROWS = 2,     /* which of the rows are computed: the command in a file says it */
+    OF_MOTION = 1,   /* the numbers of the rows: part of the fingerprint, and of the command in a file */
+    OF_ROWS = 2,     /* which rows are computed: part of the command in a file */
     OF_FILES = 4,    /* what is written or printed, and where */
-    OF_MACHINE = 8,  /* what computes: no number changes */
-    OF_ANOTHER = 16, /* something else is done than to compute the motion */
+    OF_MACHINE = 8,  /* what computes; no number changes */
+    OF_ANOTHER = 16, /* the command does something other than compute the motion */
     OF_WHATEVER = OF_FILES | OF_MACHINE | OF_ANOTHER
 };
 
-/* How a setting of the motion enters the fingerprint of a sweep; the others are part of files that exist. */
+/* How a setting of the motion enters the fingerprint of a sweep. New options are PRINT_NAMED; the other kinds remain
+ * because files with such fingerprints exist. */
 typedef enum option_print {
-    PRINT_NAMED,    /* where it is given, with its name: so does every new one */
-    PRINT_GIVEN,    /* where it is given */
-    PRINT_ADAPTIVE, /* where the steps adapt */
+    PRINT_NAMED,    /* with its name, if it has a value */
+    PRINT_GIVEN,    /* if it has a value */
+    PRINT_ADAPTIVE, /* if the steps are adaptive */
     PRINT_ALWAYS,
-    PRINT_ELSEWHERE /* with another option */
+    PRINT_ELSEWHERE /* not as an option: other code mixes it in */
 } option_print;
 
 typedef struct option {
     option_kind kind;
-    size_t place, size; /* in struct options */
+    size_t place, size; /* of its member in struct options */
     const char *name, *argument;
     unsigned verbs, setting;
-    const char *help; /* code in backquotes */
+    const char *help; /* with code in backquotes */
     const char *brief;
-    const char *choices; /* words for the value, with blanks between them */
-    const char *more;    /* behind the help, in the manual alone */
+    const char *choices; /* words for the value, separated by blanks */
+    const char *more;    /* follows the help in the manual, and nowhere else */
     option_print print;
-    bool late; /* in the fingerprint behind the others */
-    char link; /* its key in a link to the lab; 0: a link has it not */
+    bool late; /* comes after the other options in the fingerprint */
+    char link; /* its key in a link to the lab; 0: links do not have it */
 } option;
 
 /* The numbers of the rows: OPTION_method … */
@@ -112,46 +113,46 @@ enum {
 typedef struct options {
     unsigned verb;
     const char *operand; /* the model, or the method of `methods`; NULL: none */
-    const char *text;    /* the model's, where it is not read from the operand; else NULL */
+    const char *text;    /* of the model; NULL: read it from the operand */
     options_list files;  /* the operands of `merge` */
 #define OPTION(kind, member, ...) TYPE_##kind member;
 #include "cli/words/options.def"
     const char *given[OPTION_COUNT]; /* the text of the value; NULL: the option is not given */
     bool absolute;                   /* tolerance or accuracies are in the units of the numbers */
     const team *team;                /* NULL: the program is alone */
-    bool *answered; /* where a verb notes that its JSON object is written: a failure after that is no second one */
+    bool *answered;                  /* set by a verb that has written its JSON object; an error then writes none */
     int argc;
     char **argv; /* the command line, for the header of files */
 } options;
 
-/* argv from the program's name on; `first` is where the verb's own arguments begin. */
+/* Reads argv, which begins with the program's name, from the verb's first argument on. */
 motus_status options_read(options *, unsigned verb, int argc, char **argv, int first, motus_error *);
 void options_free(options *);
 const option *options_row(size_t k); /* k < OPTION_COUNT */
-/* The help of a row, or more, without its backquotes. Returns out. */
+/* Copies a text of a row without its backquotes. Returns out. */
 enum { OPTIONS_HELP = 320 };
 const char *options_plain(const char *help, char out[OPTIONS_HELP]);
-void options_hint(const option *, motus_error *); /* hints at the argument and the help of a row */
-/* options_value.c: reads the value of the row k. */
+void options_hint(const option *, motus_error *); /* makes the argument and the help of a row the hint */
+/* Reads the value of row k (options_value.c). */
 motus_status options_value(options *, size_t k, const char *value, motus_error *);
-/* Whether a row has a value, also one that was not given. */
+/* Returns whether an option has a value, given or settled. */
 bool options_has(const options *, const option *);
-/* Options of these settings are as if they were not given; or they are those of others, which keep their lists. */
+/* Makes the options with these settings as if they were not given. */
 void options_forget(options *, unsigned settings);
+/* Copies the options with these settings; their lists still belong to `from`. */
 void options_take(options *, const options *from, unsigned settings);
 const char *options_verb(unsigned verb);
-/* Whether there is an option --name, of any verb. */
+/* Returns whether a verb has an option --name. */
 bool options_known(const char *name, size_t length);
-/* What --switches and --error ask for. */
 motus_switches options_switches(const options *);
 motus_bars options_bars(const options *);
 
-/* The text of --help. */
+/* Print the text of --help. */
 void help_program(FILE *);
 void help_verb(FILE *, unsigned verb);
-/* The table of verbs and options, for programs, a row a line, with tabs between:
+/* Prints the table of verbs and options for programs: lines with tabs between the cells, and - for an empty cell.
  *     verb, name, operands, what it does
- *     option, --name, -n, argument, verbs, of what it is a setting, words for its value, help, more; - for nothing */
+ *     option, --name, -n, argument, verbs, setting, choices, help, more */
 void help_table(FILE *);
 
 /* The verbs: run_verb, sweep_verb … */

@@ -1,7 +1,4 @@
-/* The table of options.
- *
- * Invariant: all that is known of an option is its row in cli/words/options.def.
- */
+/* The table of options, made from cli/words/options.def. */
 #include "base/error.h"
 #include "cli/words/options.h"
 
@@ -51,7 +48,7 @@ const char *options_verb(unsigned verb)
     return verbs[k];
 }
 
-/* Members of a definition have '_' where options have '-'. */
+/* Compares an option with a member of a definition, which has '_' where the option has '-'. */
 static bool alike(const char *option, const char *member, size_t length)
 {
     for (size_t i = 0; i < length; i++)

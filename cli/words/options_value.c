@@ -1,7 +1,6 @@
 /* The value of an option, read as its kind says.
  *
- * Invariant: a number is a constant expression of the language. Values are checked here, so the verbs get only valid
- * ones.
+ * Invariant: a number is a constant expression of the language. The verbs get only values that were checked here.
  */
 #include "cli/words/options.h"
 #include "cli/words/words.h"
@@ -9,7 +8,6 @@
 #include <math.h>
 #include <string.h>
 
-/* A constant expression of the language; `inner` says why it is none. */
 static bool read_number(const char *text, double *number, motus_error *inner)
 {
     return typed_constant(text, "", number, inner) == MOTUS_OK;
@@ -20,7 +18,7 @@ static bool read_above(const char *text, double *number, motus_error *inner)
     return read_number(text, number, inner) && *number > 0;
 }
 
-/* An integer above 0; one in digits is exact. */
+/* Reads an integer above 0, exactly if it is written in digits. */
 static bool read_count(const char *text, int64_t *count, motus_error *inner)
 {
     const char *rest;
@@ -35,8 +33,9 @@ static bool read_count(const char *text, int64_t *count, motus_error *inner)
     return true;
 }
 
-/* The text without the word at its end and the blanks before that; false: it has no such word, or is too long. */
 enum { SHORT = 256 };
+/* Copies a text without the word at its end and the blanks before it. Returns false if the text does not end in the
+ * word, or is too long. */
 static bool cut_word(const char *text, const char *word, char out[SHORT])
 {
     const size_t n = strlen(word);
@@ -53,14 +52,14 @@ static bool read_steps(const char *text, int64_t *steps, motus_error *inner)
     return (cut_word(text, "steps", number) || cut_word(text, "step", number)) && read_count(number, steps, inner);
 }
 
-/* A time, or "10 steps". */
+/* Reads a time, or "10 steps". */
 static bool read_every(options_period *p, const char *text, motus_error *inner)
 {
     *p = (options_period){0};
     return read_steps(text, &p->steps, inner) || read_above(text, &p->time, inner);
 }
 
-/* A time with its unit, or "1e6 steps". */
+/* Reads a time with its unit, or "1e6 steps". */
 static bool read_states(options_period *p, const char *text, motus_error *inner)
 {
     static const struct {
@@ -78,7 +77,7 @@ static bool read_states(options_period *p, const char *text, motus_error *inner)
     return false;
 }
 
-/* The text without the word relative or absolute, which goes to o->absolute. False: it is too long. */
+/* Sets o->absolute by the word at the end of a text, and copies the text before it. Returns false if it is too long. */
 static bool read_unit(options *o, const char *text, char number[SHORT])
 {
     o->absolute = cut_word(text, " absolute", number);
@@ -87,7 +86,7 @@ static bool read_unit(options *o, const char *text, char number[SHORT])
     return strlen(text) < SHORT;
 }
 
-/* "1e-3:1e-12", or one of them. */
+/* Reads "1e-3:1e-12", or one number. */
 static bool read_accuracies(options *o, options_range *r, const char *text, motus_error *inner)
 {
     char number[SHORT];
@@ -97,7 +96,6 @@ static bool read_accuracies(options *o, options_range *r, const char *text, motu
     return read_above(number, &r->coarsest, inner) && read_above(colon ? colon + 1 : number, &r->finest, inner);
 }
 
-/* Whether a word is among the choices of a row. */
 static bool is_choice(const option *row, const char *word)
 {
     const size_t length = strlen(word);
@@ -109,7 +107,7 @@ static bool is_choice(const option *row, const char *word)
     return false;
 }
 
-/* What the value of a kind has to be, where it is not just any text. */
+/* What the value of a kind must be, unless it is any text. */
 static const char *const wanted[] = {
     [NUMBER] = "a number",
     [POSITIVE] = "a number above 0",
@@ -124,7 +122,7 @@ static const char *const wanted[] = {
     [TEXTS] = NULL,
 };
 
-/* False: the value is not what the kind wants, or memory ran out (`inner`). */
+/* Returns false if the value is not what its kind wants, or if memory runs out (`inner`). */
 static bool store(options *o, const option *row, const char *value, motus_error *inner)
 {
     void *place = (char *)o + row->place;

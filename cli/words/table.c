@@ -1,6 +1,6 @@
 /* A table of text.
  *
- * Invariant: cells are kept as text_safe() makes them, in one row-major list; a table that ran out of memory prints
+ * Invariant: the cells are one list, row by row, each as text_safe() makes it. A table that ran out of memory prints
  * nothing.
  */
 #include "cli/words/text.h"
@@ -50,7 +50,7 @@ void table_cell(table *t, const char *text)
         t->cells = cells;
         t->room = room;
     }
-    size_t size = 3 * strlen(text) + 1; /* a replaced byte becomes three */
+    size_t size = 3 * strlen(text) + 1; /* U+FFFD for one byte takes three */
     char *cell = malloc(size);
     if (!cell) {
         t->failed = true;

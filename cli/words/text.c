@@ -1,7 +1,7 @@
 /* Text for a terminal.
  *
  * Invariant: text_safe() and text_put() write valid UTF-8 without control characters, whatever bytes they get. The
- * program never calls setlocale(), so printf writes a decimal point everywhere.
+ * program never calls setlocale(), so printf writes a decimal point in every locale.
  */
 #include "cli/words/text.h"
 
@@ -77,7 +77,7 @@ size_t text_width(const char *s)
     return width;
 }
 
-/* Wraps one line; returns where it ends. */
+/* Wraps one line. Returns its end. */
 static const char *wrap_line(FILE *out, const char *s, size_t indent, size_t width)
 {
     char word[512];

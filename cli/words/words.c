@@ -1,4 +1,4 @@
-/* What is typed: words and numbers. See words.h. */
+/* Words and numbers that a user types. See words.h. */
 #include "cli/words/words.h"
 
 #include "base/decimal.h"
@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Copies a word from *at, which then stands behind it. Returns the end of the copy, which is behind the byte 0. */
+/* Copies a word and a byte 0, and moves *at behind the word. Returns the end of the copy. */
 static char *copy(char *to, const char **at)
 {
     const char *s = *at;
@@ -84,8 +84,7 @@ motus_status words_add(options_list *list, const char *value, motus_error *err)
     return MOTUS_OK;
 }
 
-/* ---- numbers: an expression that is not a plain decimal is read by the language, as an initial value of a model, so
- * it has the same meaning as in a model ---- */
+/* ---- numbers: the language reads an expression, as the initial value of a small model ---- */
 
 bool typed_decimal(const char *s, double *value)
 {

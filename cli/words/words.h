@@ -1,5 +1,4 @@
-/* What is typed: lists of words, those of a command line, as command_word() has written them, or of the value of an
- * option; and numbers. */
+/* What a user types: the words of a command, lists in the value of an option, and numbers. */
 #ifndef CLI_WORDS_WORDS_H
 #define CLI_WORDS_WORDS_H
 
@@ -9,9 +8,9 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* Words are separated by blanks; in one, what is between two ' is taken as it is, $'\xNN' is a byte, and \ takes the
- * next character so. The items point into *memory, and there is room for two more; the caller frees it and the list's
- * items, also after a failure. */
+/* Splits a command that command_word() has written. Blanks separate words; text between two ' is literal, $'\xNN' is a
+ * byte, and a character after \ is literal. The items point into *memory, and there is room for two more. The caller
+ * frees *memory and the list's items, also after a failure. */
 motus_status words_split(const char *text, char **memory, options_list *, motus_error *);
 
 /* Splits "x,r.x,u[1,2]" at the commas outside brackets. */
@@ -21,15 +20,15 @@ void words_free(options_list *);
 
 /* ---- numbers ---- */
 
-/* A decimal number with or without a sign, and nothing else; it may be infinite. */
+/* Reads a decimal number, with or without a sign, if the text is nothing else. The number may be infinite. */
 bool typed_decimal(const char *, double *);
-/* An integer from 1 to INT64_MAX; *rest: what follows it. 1e6 is one. */
 #define TYPED_COUNT_MAX 9e18
+/* Reads an integer from 1 to INT64_MAX, as 7 or 1e6; *rest is the text behind it. */
 bool typed_count(const char *, int64_t *, const char **rest);
-/* 0 … 2^64 - 1. */
+/* Reads an integer from 0 to 2^64 - 1. */
 bool typed_seed(const char *, uint64_t *);
-/* A constant expression of the language, "2 pi/3". The error's message begins with `where`; its hint says what is wrong
- * with the expression. */
+/* Reads a constant expression of the language, "2 pi/3". The message of an error begins with `where`; its hint says
+ * what is wrong with the expression. */
 motus_status typed_constant(const char *expression, const char *where, double *, motus_error *);
 
 #endif
