@@ -3,7 +3,7 @@
  *     --vary     NAME=FROM:TO:COUNT   NAME=log:FROM:TO:COUNT   NAME=A,B,C   NAME=@FILE:COLUMN
  *     --random   NAME=FROM:TO         NAME=normal:MEAN:DEVIATION
  *
- * Invariant: numbers are constant expressions of the language; each is finite, each count at least 1.
+ * Invariant: numbers are constant expressions of the language. Each is finite, and each count at least 1.
  */
 #include "cli/model/grid.h"
 #include "cli/words/complain.h"
@@ -38,7 +38,8 @@ static char *trim(char *s)
     return s;
 }
 
-/* Cuts at `mark` outside brackets. Returns the number of parts, most + 1 if there are more than `most`. */
+/* Cuts a text at each `mark` outside brackets. Returns the number of parts, or most + 1 if there are more than
+ * `most`. */
 static size_t cut(char *s, char mark, char **parts, size_t most)
 {
     size_t count = 0;
@@ -151,7 +152,7 @@ motus_status axis_read(axis *a, const char *option, const char *spec, motus_erro
     *a = (axis){.spec = spec};
     reading r = {.option = option, .spec = spec, .text = strdup(spec), .err = err};
     if (!r.text) return complain_memory(err);
-    /* of a long list only the beginning is shown */
+    /* a message shows only the beginning of a long list */
     snprintf(r.where, sizeof r.where, "%s %.100s%s", option, spec, strlen(spec) > 100 ? "..." : "");
     char *equals = strchr(r.text, '=');
     *equals = 0;

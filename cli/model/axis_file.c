@@ -19,10 +19,10 @@ typedef struct table_file {
     char *line;
     size_t room;
     long long number; /* of the line */
-    size_t place;     /* of the column, from 0; SIZE_MAX: not known yet */
+    size_t place;     /* the place of the column, from 0; SIZE_MAX: not known yet */
 } table_file;
 
-/* Field `k` of the line, without its quotes, cut out in place; NULL: the line has fewer. */
+/* Cuts out field `k` of the line, without its quotes. Returns NULL if the line has fewer fields. */
 static char *field(char *s, size_t k)
 {
     for (size_t i = 0;; i++) {
@@ -55,7 +55,7 @@ static motus_status bad(const table_file *f, motus_status status, const char *wh
     return fail(err, status, "%s:%lld: %s", f->path, f->number, what);
 }
 
-/* Reads a line, without its end. *more false: there is none. The stream may have no end, nor its lines. */
+/* Reads a line, without its end, of a stream that may be endless, as its lines may be. *more is false at the end. */
 static motus_status read_line(table_file *f, size_t *length, bool *more, motus_error *err)
 {
     enum { FIRST = 256 };
@@ -86,10 +86,10 @@ static motus_status read_line(table_file *f, size_t *length, bool *more, motus_e
     return c == EOF && ferror(f->stream) ? cannot_read(f, err) : MOTUS_OK;
 }
 
-/* Reads the next line that is neither empty nor a comment. *more false: there is none. */
+/* Reads the next line that is neither empty nor a comment. *more is false at the end. */
 static motus_status next_line(table_file *f, bool *more, motus_error *err)
 {
-    static const char mark[] = "\xEF\xBB\xBF"; /* some programs begin a file of UTF-8 with it */
+    static const char mark[] = "\xEF\xBB\xBF"; /* some programs begin a file in UTF-8 with it */
     for (;;) {
         size_t length = 0;
         const motus_status status = read_line(f, &length, more, err);
@@ -101,7 +101,7 @@ static motus_status next_line(table_file *f, bool *more, motus_error *err)
     }
 }
 
-/* Whether the text is a number, which may be infinite or NaN. */
+/* Returns whether a text is a number, which may be infinite or NaN; *value is then not finite. */
 static bool is_number(const char *s, double *value)
 {
     s += strspn(s, " \t");
@@ -111,7 +111,7 @@ static bool is_number(const char *s, double *value)
     return strcasecmp(s, "nan") == 0 || strcasecmp(s, "inf") == 0 || strcasecmp(s, "infinity") == 0;
 }
 
-/* Finds the column from the first line; *is_row: that line is a row and not the head. */
+/* Finds the column by the first line. *is_row says whether that line is a row, and not the head. */
 static motus_status find_column(table_file *f, bool *is_row, motus_error *err)
 {
     int64_t n = 1;
@@ -130,7 +130,7 @@ static motus_status find_column(table_file *f, bool *is_row, motus_error *err)
         f->place = (size_t)n - 1;
         memcpy(copy, f->line, strlen(f->line) + 1);
         s = field(copy, f->place);
-        *is_row = !s || is_number(s, &value); /* read_row() refuses a line that is too short */
+        *is_row = !s || is_number(s, &value); /* read_row() reports a line that is too short */
     }
     for (size_t k = 0; !status && f->place == SIZE_MAX; k++) {
         memcpy(copy, f->line, strlen(f->line) + 1);
@@ -159,7 +159,7 @@ static motus_status read_row(table_file *f, double **list, uint64_t *count, motu
     }
     if (*count == FILE_VALUES_MAX)
         return fail(err, MOTUS_LIMIT, "%s has more than %d values", f->path, FILE_VALUES_MAX);
-    if ((*count & (*count - 1)) == 0) { /* full: 0, 1, 2, 4, 8, … */
+    if ((*count & (*count - 1)) == 0) { /* the list is full with 0, 1, 2, 4, 8, … numbers */
         double *larger = realloc(*list, (*count ? 2 * *count : 1) * sizeof **list);
         if (!larger) return complain_memory(err);
         *list = larger;

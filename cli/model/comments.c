@@ -1,4 +1,4 @@
-/* What the comments of a model say of its numbers. See load.h. */
+/* What the comments of a model say about its numbers. See load.h. */
 #include "cli/model/load.h"
 
 #include "base/utf8.h"
@@ -9,8 +9,8 @@
 
 enum { NAME = 256, MOST = 200 /* bytes of a comment */ };
 
-/* The name without blanks, indices and components: "r[i]'.x(0)" is r' of which `initial` is true. False: it is no
- * name. */
+/* Copies a name without blanks, indices and components: of "r[i]'.x(0)", out is "r'", and *initial is true. Returns
+ * false if the text is not a name. */
 static bool plain(const char *from, size_t length, char out[NAME], bool *initial)
 {
     size_t n = 0;
@@ -35,7 +35,7 @@ static bool plain(const char *from, size_t length, char out[NAME], bool *initial
     return n > 0;
 }
 
-/* What a column is of: the x of max(x), and without its error. */
+/* Moves *column to the name in it, which is x in "max(x)" and in "x.error". Returns the length of the name. */
 static size_t subject(const char **column)
 {
     static const char *const of[] = {"min(", "max(", "mean(", "final("}, error[] = ".error";
@@ -51,7 +51,7 @@ static size_t subject(const char **column)
     return length;
 }
 
-/* A line's comment without the blanks around it. */
+/* Copies a comment without the blanks around it. Returns NULL if it is empty, too long or not visible text. */
 static char *copy(const char *from, size_t length)
 {
     while (length > 0 && strchr(" \t#", *from)) from++, length--;
@@ -76,7 +76,7 @@ char *comments_find(const char *model, const char *column)
     char *found = NULL;
     for (const char *line = model; *line && !found;) {
         const size_t all = strcspn(line, "\n"), code = strcspn(line, "#\n"), left = strcspn(line, "=#\n");
-        /* one statement, whose value is not compared */
+        /* the line is a single statement that gives a value */
         const bool gives = left < code && line[left + 1] != '=' && !memchr(line, ';', code);
         if (gives && code < all && plain(line, left, name, &its) && strcmp(name, wanted) == 0 && (its || !initial))
             found = copy(line + code, all - code);

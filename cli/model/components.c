@@ -1,7 +1,7 @@
-/* --set of one component of a vector or family. See load.h.
+/* --set for one component of a vector or family. See load.h.
  *
- * Invariant: components of parameters are set before those of initial values, so that an initial value which was set
- * stays as it was set.
+ * Invariant: components of parameters are set before those of initial values, so that no parameter changes an initial
+ * value that was set.
  */
 #include "cli/model/load.h"
 
@@ -13,7 +13,7 @@
 
 enum { NAME = 2 * MOTUS_NAME_MAX };
 
-/* The length of NAME in NAME=VALUE or NAME(start)=VALUE. */
+/* Returns the length of NAME in NAME=VALUE or NAME(start)=VALUE. */
 static size_t name_length(const char *item) { return strcspn(item, "=("); }
 
 bool components_are(const char *item) { return memchr(item, '.', name_length(item)) != NULL; }
@@ -24,7 +24,7 @@ static motus_status unknown(const char *item, motus_error *err)
                     "--set %s: the model has no such component", item);
 }
 
-/* The numbers of a parameter or an initial value, with `value` in place `at`. */
+/* Sets a parameter or an initial value to its `numbers`, with `value` in place `at`. */
 static motus_status set_one(motus_system *s, const char *name, size_t count, size_t at, double value, double *numbers,
                             motus_error *err)
 {
@@ -32,7 +32,7 @@ static motus_status set_one(motus_system *s, const char *name, size_t count, siz
     return motus_system_set(s, name, numbers, count, err);
 }
 
-/* x, y, z or 1, 2, …, up to a blank: a place from 0, else SIZE_MAX. */
+/* Reads x, y, z or 1, 2, …, with blanks behind it. Returns the place, from 0; SIZE_MAX: it is none of them. */
 static size_t place(const char *letter, size_t length)
 {
     while (length > 0 && letter[length - 1] == ' ') length--;
@@ -62,7 +62,7 @@ static motus_status set_parameter(motus_system *s, const char *item, double valu
     return unknown(item, err);
 }
 
-/* The columns of the state have the order of the initial values. */
+/* Sets a component of an initial value. Its place is that of the column, since both have one order. */
 static motus_status set_initial(motus_system *s, const char *item, double value, motus_error *err)
 {
     char name[NAME];

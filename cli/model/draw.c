@@ -1,8 +1,8 @@
 /* Counter-based random numbers.
  *
- * Invariant: the key is the seed; the counter is the trajectory (64 bits), the stream and the number of blocks used
- * before. So a value does not depend on batch, thread or resumption; and since only integer arithmetic, comparisons
- * and exact operations make it, it is the same on every machine.
+ * Invariant: the key is the seed; the counter is the trajectory (64 bits), the stream, and the number of blocks that
+ * were used before. So a value does not depend on batches, threads or --resume. Only integer arithmetic, comparisons
+ * and exact operations are used, so a value has the same bits on every machine.
  */
 #include "cli/model/draw.h"
 
@@ -51,8 +51,8 @@ double draw_uniform(uint64_t seed, uint32_t stream, uint64_t index)
     return uniform(&s);
 }
 
-/* True with probability exp(-p), 0 ≤ p ≤ 1: p > u1 > u2 > … > un has the probability p^n/n!, so the length of such a
- * run is even with probability exp(-p) [vonNeumann51]. */
+/* Returns true with probability exp(-p), 0 ≤ p ≤ 1: p > u1 > u2 > … > un has the probability p^n/n!, so the length n of
+ * the longest such sequence is even with probability exp(-p) [vonNeumann51]. */
 static bool survives(source *s, double p)
 {
     bool even = true;

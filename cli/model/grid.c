@@ -1,6 +1,6 @@
 /* The values that --vary and --random give to each trajectory.
  *
- * Invariant: the values of a trajectory are a function of its number alone.
+ * Invariant: the values of a trajectory depend only on its number.
  */
 #include "cli/model/grid.h"
 
@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Refuses a name that is varied twice, or set as well. */
+/* Fails if a name is varied twice, or set and varied. */
 static motus_status check_name(const grid *g, const options *o, size_t k, motus_error *err)
 {
     const char *name = g->axes[k].name;
@@ -102,7 +102,7 @@ void grid_values(const grid *g, uint64_t first, size_t count, double *const *val
     while (varied < g->count && g->axes[varied].kind <= AXIS_LIST) varied++;
     for (size_t k = varied; k < g->count; k++)
         for (size_t i = 0; i < count; i++) values[k][i] = value(g, k, (uint32_t)(k - varied), 0, first + i);
-    uint64_t repeat = g->draws; /* how many successive trajectories have the same value */
+    uint64_t repeat = g->draws; /* how many successive trajectories share a value of axis k */
     for (size_t k = varied; k-- > 0;) {
         uint64_t n = g->axes[k].count, place = first / repeat % n, left = repeat - first % repeat;
         double v = value(g, k, 0, place, 0);
@@ -129,7 +129,7 @@ size_t grid_axis_values(const grid *g, size_t axis, uint64_t first, size_t count
 {
     const bool drawn = g->axes[axis].kind > AXIS_LIST;
     const uint64_t all = drawn ? g->total : g->axes[axis].count;
-    uint32_t stream = 0; /* of draws: those before it */
+    uint32_t stream = 0; /* the number of random axes before this one */
     for (size_t k = 0; k < axis; k++) stream += drawn && g->axes[k].kind > AXIS_LIST;
     size_t n = 0;
     for (; n < count && first + n < all; n++) values[n] = value(g, axis, stream, first + n, first + n);
@@ -147,13 +147,13 @@ void grid_free(grid *g)
 /* ---- the trajectories that are furthest apart ---- */
 
 enum {
-    ALL = 16,      /* a sweep of so few trajectories: every one of them */
-    CORNERS = 4,   /* of so many axes every corner */
-    ROWS = 64,     /* at most */
-    DEVIATIONS = 3 /* from the mean of what is drawn from a normal distribution */
+    ALL = 16,      /* up to so many trajectories, all are taken */
+    CORNERS = 4,   /* up to so many axes, all corners are taken */
+    ROWS = 64,     /* at most so many are taken */
+    DEVIATIONS = 3 /* the ends of a normal distribution: so many deviations from the mean */
 };
 
-/* The indices of the least and the largest value of --vary. */
+/* Finds the indices of the least and the largest value of --vary. */
 static void ends_of(const axis *a, uint64_t *least, uint64_t *largest)
 {
     *least = 0;
@@ -164,7 +164,7 @@ static void ends_of(const axis *a, uint64_t *least, uint64_t *largest)
     }
 }
 
-/* -1: the lower end of an axis, 1: the upper one, 0: its middle. */
+/* Returns the lower end of an axis (side -1), its upper end (1), or its middle (0). */
 static double end_of(const axis *a, int side)
 {
     uint64_t least, largest;
@@ -176,8 +176,8 @@ static double end_of(const axis *a, int side)
     return a->kind == AXIS_LIST ? a->list[at] : range_value(&a->range, at);
 }
 
-/* Which side axis k is on in this row: the middle of all first, then corners, or every end by itself among the others'
- * opposite ends. */
+/* Returns the side of axis k in a row. The first row has the middles of all axes. The others are the corners, or, if
+ * there are many axes, an end of one axis and the opposite ends of the others. */
 static int side_of(const grid *g, size_t row, size_t k)
 {
     if (row == 0) return 0;
@@ -186,7 +186,8 @@ static int side_of(const grid *g, size_t row, size_t k)
     return (row - 1) / 2 == k ? side : -side;
 }
 
-/* Axes that go together: at the ends of each, the values of all; what is drawn is at its own ends. */
+/* Fills the rows of a sweep with --zip: at the ends of each varied axis, the values of all. Random axes are at their
+ * own ends. Returns the number of rows. */
 static size_t zipped(const grid *g, double *const *values)
 {
     size_t rows = 0;

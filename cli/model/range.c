@@ -1,8 +1,8 @@
 /* Linearly or logarithmically spaced values.
  *
- * Invariant: the first and the last value are exactly those given. Only the four operations and fma() are used, so
- * the values are the same on every machine. Numbers are carried to 106 bits, and an end counts as the decimal that was
- * typed, so that the values equal typed ones: 0.15 in 0:1:101, powers of ten in log:0.001:1:4.
+ * Invariant: the first and the last value are exactly those given. Only the four operations and fma() are used, so the
+ * values have the same bits on every machine. Numbers have 106 bits, and an end is the decimal that was typed, so that
+ * the values equal typed numbers: 0.15 in 0:1:101, powers of ten in log:0.001:1:4.
  */
 #include "cli/model/range.h"
 
@@ -11,7 +11,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* a + b and a b without loss: [Dekker71]. */
+/* Returns a + b without loss [Dekker71]. */
 static range_pair sum(double a, double b)
 {
     double s = a + b, z = s - a;
@@ -41,12 +41,12 @@ static range_pair power(range_pair base, uint64_t n)
     return result;
 }
 
-/* q^(1/n), q ≥ 1: to double precision by halving an interval, then by Newton's method. */
+/* Returns q^(1/n) for q ≥ 1: to double precision by halving an interval, and then by Newton's method. */
 static range_pair root(range_pair q, uint64_t n)
 {
     double low = 1, high = q.high;
     for (double middle; (middle = low + (high - low) / 2) > low && middle < high;) {
-        /* an overflow gives NaN, which is not below q */
+        /* an overflow gives NaN, which is not less than q */
         if (power((range_pair){middle, 0}, n).high < q.high)
             low = middle;
         else
@@ -61,7 +61,8 @@ static range_pair root(range_pair q, uint64_t n)
     return r;
 }
 
-/* The shortest decimal that reads as `value`, which is the typed one: 0.1 is a tenth. Beyond 1e±280, `value`. */
+/* Returns the shortest decimal that reads as `value`, the one that was typed: 0.1 is a tenth. Beyond 1e±280, returns
+ * `value`. */
 static range_pair as_typed(double value)
 {
     if (!(fabs(value) > 1e-280 && fabs(value) < 1e280)) return (range_pair){value, 0};
@@ -108,7 +109,7 @@ static double between(const range *r, uint64_t k)
     range_pair n = {(double)r->last, 0}, a = product(r->low, (range_pair){(double)(r->last - k), 0}),
                b = product(r->high, (range_pair){(double)k, 0});
     range_pair s = sum(a.high, b.high), v = sum(s.high, s.low + (a.low + b.low));
-    /* a difference that is 0 but for the rounding to 106 bits */
+    /* only the rounding to 106 bits keeps this difference from 0 */
     if (fabs(v.high) < 0x1p-99 * (fabs(a.high) + fabs(b.high))) return 0;
     return quotient(v, n).high;
 }

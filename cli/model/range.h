@@ -5,7 +5,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* A number as an unevaluated sum of two: 106 bits. */
+/* A number of 106 bits: the sum of two doubles. */
 typedef struct range_pair {
     double high, low;
 } range_pair;
@@ -14,11 +14,11 @@ typedef struct range {
     double from, to;
     uint64_t last; /* the index of the last value; the first is 0 */
     bool logarithmic;
-    range_pair low, high; /* the ends as typed decimals; logarithmic: the smaller |end| and the ratio */
+    range_pair low, high; /* the ends as typed decimals; if logarithmic, the smaller |end| and the ratio */
 } range;
 
 range range_linear(double from, double to, uint64_t count);
-/* from and to of one sign, neither of them 0, not more than 300 decades apart. */
+/* `from` and `to` have one sign, are not 0, and are at most 300 decades apart. */
 range range_log(double from, double to, uint64_t count);
 double range_value(const range *, uint64_t k);
 

@@ -6,9 +6,9 @@
 #include <math.h>
 
 #define LN_10 2.302585092994046
-#define FAR_APART 1e7 /* by so much errors grow where a motion passes close encounters, or is chaotic */
+#define FAR_APART 1e7 /* the growth of errors in close encounters, or in chaos */
 
-/* From what time on no digit is known to be significant. */
+/* Prints from what time on no digit is known to be significant. */
 static void print_end(const summary *s, FILE *out)
 {
     const motus_estimate *e = &s->estimate;
@@ -23,7 +23,7 @@ static void print_end(const summary *s, FILE *out)
     putc('\n', out);
 }
 
-/* What was asked of the answer, and whether it holds. */
+/* Prints whether the run has reached its accuracy. */
 static void print_accuracy(const motus_run_statistics *run, FILE *out)
 {
     char wanted[DECIMAL_MAX], reached[DECIMAL_MAX];

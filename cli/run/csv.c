@@ -1,7 +1,7 @@
-/* The trajectory as CSV (RFC 4180, lines ended by a newline).
+/* The trajectory as CSV (RFC 4180, but a line ends with a newline alone).
  *
- * Invariant: every line of the head starts with '#' and holds no control character, whatever the command line held; a
- * name holding a comma or a quote is quoted; every number reads back as the same double in any locale.
+ * Invariant: every line of the head begins with '#' and has no control character, whatever the command line has. A name
+ * with a comma or a quote is in quotes. Every number reads back as the same double in every locale.
  */
 #include "cli/run/csv.h"
 
@@ -120,7 +120,7 @@ bool csv_significant(const csv *c, const double *values)
 {
     bool known = true;
     for (size_t k = 0; c->errors && k < c->count; k++)
-        known = known && (c->columns[k] == 0 || !isinf(values[c->count + k])); /* 0: t */
+        known = known && (c->columns[k] == 0 || !isinf(values[c->count + k])); /* t has no error */
     return known;
 }
 

@@ -1,6 +1,6 @@
-/* The deviation of the invariants along a run.
+/* The deviation of the invariants during a run.
  *
- * Invariant: `initial` is the value at the model's start, also of a restarted run; a NaN makes `most` NaN.
+ * Invariant: `initial` is the value at the model's start, even in a restarted run. A NaN makes `most` NaN.
  */
 #include "cli/run/deviation.h"
 

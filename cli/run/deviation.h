@@ -1,4 +1,4 @@
-/* The deviation of the invariants from their initial values along a run (printed as "drift"). */
+/* The deviation of the invariants from their initial values during a run, which is printed as "drift". */
 #ifndef CLI_RUN_DEVIATION_H
 #define CLI_RUN_DEVIATION_H
 
@@ -12,11 +12,11 @@ typedef struct deviation {
 } deviation;
 
 motus_status deviation_begin(deviation *, const load *, motus_run *, motus_error *);
-/* Observes where the run stands, which a run that is restored need not come to otherwise. */
+/* Observes the present state, for a restored run that is at its end already. */
 motus_status deviation_here(deviation *, motus_run *, motus_error *);
 walk_observer deviation_observer(deviation *, int64_t stride);
-/* A stride at which observing costs little beside stepping: about a thousand samples, fewer where the state is
- * large. */
+/* Returns a stride with about a thousand samples, or fewer if the state is large, so that observing costs little in
+ * comparison with the steps. */
 int64_t deviation_stride(const load *, int64_t steps);
 void deviation_free(deviation *);
 

@@ -1,6 +1,6 @@
 /* The table of events as CSV.
  *
- * Invariant: a row is as long as the head; the values after an event that changed nothing are those on arrival.
+ * Invariant: a row has as many cells as the head. The values after an event that changed nothing are those on arrival.
  */
 #include "cli/run/csv.h"
 
@@ -14,9 +14,9 @@ typedef struct job {
     file_out *file;
     motus_run *run;
     size_t *columns;
-    double *values; /* on arrival, and behind them as the action left them */
+    double *values; /* on arrival, and behind them, as the action left them */
     size_t count;
-    bool errors; /* of the times */
+    bool errors; /* the errors of times are known */
 } job;
 
 static motus_event_row row_at(motus_run *run, int64_t k)
@@ -26,7 +26,7 @@ static motus_event_row row_at(motus_run *run, int64_t k)
     return row;
 }
 
-/* Whether --record has added the column to the model. */
+/* Returns whether --record has added the column to the model. */
 static bool added(const load *model, size_t k)
 {
     motus_column column = motus_default_column();
@@ -34,8 +34,8 @@ static bool added(const load *model, size_t k)
     return motus_column_at(model->system, k, &column) == MOTUS_OK && defined_label(&model->defined, column.name, &rest);
 }
 
-/* The columns of the trajectory that are numbers of the motion: without the time, which every row has, and by default
- * without the exact motion and what --record alone asks for. */
+/* Leaves out the time, which every row has, and by default the exact motion and the quantities that --record has
+ * added. */
 motus_status event_file_columns(const load *model, const options *o, size_t **columns, size_t *count, motus_error *err)
 {
     csv all;

@@ -9,10 +9,10 @@
 #include <string.h>
 
 enum {
-    FIRST = 10, /* rows that are shown */
-    LAST = 3,
-    NUMBERS = 8, /* of the state, likewise */
-    DIGITS = 10  /* of each */
+    FIRST = 10,  /* the first rows that are shown */
+    LAST = 3,    /* the last rows that are shown */
+    NUMBERS = 8, /* of the state that are shown */
+    DIGITS = 10  /* of each number */
 };
 
 static int64_t left_out(const summary *s)
@@ -21,7 +21,7 @@ static int64_t left_out(const summary *s)
     return rows > FIRST + LAST + 1 ? rows - FIRST - LAST : 0;
 }
 
-/* How many numbers of state and quantities there are; modes are quantities. */
+/* Returns how many numbers the state and the quantities have; modes are among the quantities. */
 static size_t numbers_of(const summary *s) { return load_invariant_column(s->model) - 1; }
 
 static size_t shown_of(const summary *s)
@@ -130,7 +130,7 @@ void event_table_unseen(const summary *s, FILE *out)
             done.events_unseen_of, (long long)done.events_unseen, done.events_unseen == 1 ? "" : "s", from);
 }
 
-/* "bounces accumulate"; a name whose plural is not one more s stays as it is: "event1 accumulates". */
+/* Writes "bounces accumulate", or "event1 accumulates" if the plural of the name does not add an s. */
 static void put_accumulate(const char *name, FILE *out)
 {
     const char last = name[0] ? name[strlen(name) - 1] : 0;
@@ -156,7 +156,7 @@ void event_table_end(const summary *s, FILE *out)
         else
             fprintf(out, " at t = %s\n", text);
     }
-    /* where accumulation ended the run, it stands at the last event that could be told from the limit */
+    /* a run that accumulation has ended stands at the last event that could be told apart from the limit */
     const double gone = motus_run_time(s->run) - s->start;
     const bool there = accumulated && strcmp(name, of) == 0 && !(fabs(gone) > fabs(time - s->start) + error);
     decimal(motus_run_time(s->run), now);

@@ -1,7 +1,7 @@
 /* The figure of one run.
  *
- * Invariant: what is kept of a run is bounded, whatever its length and the size of its families: of many cells an even
- * selection is drawn, and `left_out` is set.
+ * Invariant: what is kept of a run is bounded, whatever its length and the size of its families. If there are many
+ * cells, an even selection is drawn, and `left_out` is set.
  */
 #include "cli/run/figure.h"
 
@@ -17,8 +17,8 @@ enum {
     FINE_SAMPLES = 200000,
     COARSE_SAMPLES = 400,
     BAR_SAMPLES = 500,
-    MOST_CURVES = 8, /* in a panel: as many as there are styles */
-    BUNDLE = 6,      /* a family up to this size is drawn as curves, a larger one as a heat map */
+    MOST_CURVES = 8, /* in a panel, since there are so many styles */
+    BUNDLE = 6,      /* a family up to this size is drawn as curves, and a larger one as a heat map */
     HEAT_CELLS = 300,
     FIELD_SIDE = 200
 };
@@ -32,7 +32,7 @@ bool figure_find(const load *m, const motus_variable *v, const char *prefix, con
         return false;
     size_t components = v->components > 0 ? (size_t)v->components : 1, cells = count / components;
     motus_column second = motus_default_column();
-    /* the second column shows whether numbers lie cell by cell or component by component */
+    /* the second column shows whether the numbers lie cell by cell or component by component */
     bool by_cell = components == 1 || cells == 1 ||
                    (motus_column_at(m->system, first + 1, &second) == MOTUS_OK && second.component == 1);
     *p = (figure_place){first, cells, components, by_cell ? components : 1, by_cell ? 1 : cells};
@@ -50,7 +50,7 @@ static void column_name(const figure *f, size_t column, char *out, size_t size)
     snprintf(out, size, "%s", motus_column_at(f->model->system, column, &c) == MOTUS_OK ? c.name : "");
 }
 
-/* Cell number k of `shown` spread evenly over `cells`. */
+/* Returns cell number k of `shown` cells that are spread evenly over `cells`. */
 static size_t spread(size_t k, size_t shown, size_t cells)
 {
     return shown >= cells ? k : shown < 2 ? 0 : (size_t)((double)k * (double)(cells - 1) / (double)(shown - 1) + 0.5);
@@ -89,7 +89,7 @@ static bool add_against_t(figure *f, plot_panel *p, size_t column, plot_role rol
     return role == PLOT_EXACT || change || !f->bars.with_errors || add_band(f, c, column);
 }
 
-/* Numbers of a variable against t, at most MOST_CURVES. */
+/* Adds curves of the numbers of a variable against t, at most MOST_CURVES. */
 static bool add_numbers(figure *f, plot_panel *p, const figure_place *place, const figure_place *exact)
 {
     size_t numbers = place->cells * place->components, shown = numbers < MOST_CURVES ? numbers : MOST_CURVES;
@@ -103,7 +103,7 @@ static bool add_numbers(figure *f, plot_panel *p, const figure_place *place, con
     return true;
 }
 
-/* y against x, in space with z. */
+/* Adds the path of a cell, in the plane or in space. */
 static bool add_path(figure *f, plot_panel *p, const figure_place *place, size_t cell, size_t axes, plot_role role,
                      const char *label)
 {
@@ -142,7 +142,7 @@ static bool add_paths(figure *f, plot_panel *p, const motus_variable *v, const f
     return true;
 }
 
-/* A family against time: cells upwards, time to the right. */
+/* Adds a heat map of a family: cells upwards, time to the right. */
 static bool add_heat(figure *f, const motus_variable *v, const figure_place *place)
 {
     char title[PLOT_LABEL];
@@ -161,7 +161,7 @@ static bool add_heat(figure *f, const motus_variable *v, const figure_place *pla
     return true;
 }
 
-/* A field u[i, j] at the end of the run. */
+/* Adds a heat map of a field u[i, j] at the end of the run. */
 static bool add_field(figure *f, const motus_variable *v, const figure_place *place)
 {
     char title[PLOT_LABEL];
@@ -194,7 +194,7 @@ static bool full_grid(const motus_variable *v, size_t cells)
            (double)(v->last[0] - v->first[0] + 1) * (double)(v->last[1] - v->first[1] + 1) == (double)cells;
 }
 
-/* Panels shared by several variables of one kind. */
+/* The panels that several variables of one kind share; SIZE_MAX: there is none yet. */
 typedef struct shared {
     size_t scalars, plane;
 } shared;
@@ -307,7 +307,7 @@ motus_status figure_plane(const load *m, const char *text, size_t columns[2], mo
     return status;
 }
 
-/* One column of the record against another. */
+/* Adds a curve of one column against another. */
 static plot_curve *add_recorded(figure *f, plot_panel *p, const char *label, const size_t columns[2], plot_role role)
 {
     double *x = record_add(&f->fine, columns[0]), *y = x ? record_add(&f->fine, columns[1]) : NULL;
@@ -318,7 +318,7 @@ static plot_curve *add_recorded(figure *f, plot_panel *p, const char *label, con
     return c;
 }
 
-/* The plane of two columns. */
+/* Adds the plane of two columns. */
 static motus_status add_plane(figure *f, const char *text, motus_error *err)
 {
     size_t columns[2] = {0, 0}, exact[2], count[2];
@@ -393,7 +393,7 @@ static bool fill_heat(figure *f, const figure_heat *h)
     return true;
 }
 
-/* How many rows are not later than a time; NaN: all. */
+/* Returns how many rows are not later than a time; NaN: all. */
 static size_t rows_until(const figure *f, double time)
 {
     const size_t rows = f->fine.rows;
@@ -404,7 +404,7 @@ static size_t rows_until(const figure *f, double time)
     return n;
 }
 
-/* The title says from when on no digit is known, in the words of the run's table. */
+/* Adds to the title from when on no digit is known, in the words of the run's table. */
 static void tell_unknown(figure *f, double known_until)
 {
     char time[DECIMAL_MAX];
@@ -425,8 +425,8 @@ motus_status figure_draw(figure *f, double known_until, const char *path, file_o
         for (size_t k = 0; k < f->plot.panels[i].curve_count; k++) {
             plot_curve *c = &f->plot.panels[i].curves[k];
             c->count = f->fine.rows;
-            c->known = c->change ? c->count : known; /* how far the run has strayed is known */
-            /* up to where no digit is significant any more, or no error is known */
+            c->known = c->change ? c->count : known; /* the change of an invariant is known at all times */
+            /* the band ends where no digit is significant any more, or no error is known */
             for (c->band_count = 0; c->at && c->band_count < f->bars.rows; c->band_count++)
                 if (!isfinite(c->error[c->band_count])) break;
         }

@@ -1,7 +1,7 @@
-/* Columns of a run kept in memory.
+/* Columns of a run in memory.
  *
- * Invariant: the arrays have their full length from the start, so pointers into them are valid for the record's life.
- * Jumps never take the room of samples: of more than JUMPS the others are recorded as samples alone.
+ * Invariant: the arrays have their full length from the start, so that pointers into them are valid as long as the
+ * record. Jumps never take the room of samples: after JUMPS of them, no more are recorded.
  */
 #include "cli/run/figure.h"
 
@@ -73,7 +73,7 @@ static motus_status take(void *context, const double *values, motus_error *err)
     return MOTUS_OK;
 }
 
-/* Both sides with a row of NaN between them, where curves are broken. */
+/* Records both sides of a jump, with a row of NaN between them, which breaks the curves. */
 static motus_status jump(void *context, const double *before, const double *after, motus_error *err)
 {
     record *r = context;

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Whether a text has the name as a word of its own; `primed` tells whether with or without a prime, NULL: either. */
+/* Returns whether a text has a name as a word of its own: with a prime if *primed, without if not; NULL: either. */
 static bool names(const char *text, const char *name, const bool *primed)
 {
     static const char letters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_";
@@ -20,7 +20,8 @@ static bool names(const char *text, const char *name, const bool *primed)
     return false;
 }
 
-/* The number of the model, or of its two that one which the section does not name. NULL: there is no such one. */
+/* Returns the only number of the model, or, of two numbers, the one that the section does not name. NULL: there is no
+ * such number. */
 static const char *chosen(const load *m, const options *o)
 {
     const char *left = NULL;
@@ -45,7 +46,7 @@ motus_status section_plane(const load *m, const options *o, size_t columns[2], m
     if (!name)
         return complain(err, MOTUS_ARGUMENT, "choose two columns: --plot-of \"y,y'\"",
                         "--section %s: the model does not say in which plane to draw it", o->section);
-    /* a number that the section holds fixed is no axis */
+    /* a number that the section fixes is not an axis */
     const bool of_x = names(o->section, name, &(bool){false}), of_v = names(o->section, name, &(bool){true});
     if (of_x != of_v)
         snprintf(text, sizeof text, "t,%s%s", name, of_x ? "'" : "");
@@ -54,14 +55,14 @@ motus_status section_plane(const load *m, const options *o, size_t columns[2], m
     return figure_plane(m, text, columns, err);
 }
 
-/* Whether row k of the table is one of the section. */
+/* Returns whether row k of the table is a point of the section. */
 static bool of_section(motus_run *run, int64_t k)
 {
     motus_event_row row = motus_default_event_row();
     return motus_run_event(run, k, &row) == MOTUS_OK && strcmp(row.name, LOAD_SECTION) == 0;
 }
 
-/* The points in the plane, x and y side by side. */
+/* Collects the points in the plane, x and y side by side. */
 static motus_status collect(const options *o, motus_run *run, const size_t columns[2], double *points, size_t *count,
                             motus_error *err)
 {

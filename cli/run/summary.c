@@ -1,6 +1,6 @@
 /* What `motus run` prints of a finished run.
  *
- * Invariant: values are read from the run by column, so that they are those of the CSV; all are read before the first
+ * Invariant: values are read from the run by column, so that they are those of the CSV. All are read before the first
  * is printed, so that a failure prints nothing.
  */
 #include "cli/run/summary.h"
@@ -33,7 +33,7 @@ static motus_status values_of(const summary *s, size_t first, size_t count, doub
     return status;
 }
 
-/* The errors of columns [first, first + count). */
+/* Reads the errors of columns [first, first + count). */
 static motus_status errors_of(const summary *s, size_t first, size_t count, double **out, motus_error *err)
 {
     size_t *columns = calloc(count + 1, sizeof *columns);
@@ -52,7 +52,7 @@ static motus_status errors_of(const summary *s, size_t first, size_t count, doub
 
 /* ---- tables ---- */
 
-/* What leaves a value open; a whole number may count events. */
+/* Returns why a value is undecided; a whole number may count events. */
 static const char *undecided_cell(const summary *s, double value)
 {
     if (floor(value) == value && motus_explain_events(s->model->system)[0])
@@ -60,7 +60,7 @@ static const char *undecided_cell(const summary *s, double value)
     return "undecided: it jumps, or is infinite, within the error of the state";
 }
 
-/* The value of a column at the end, with its error. */
+/* Adds the value of a column at the end, with its error. */
 static motus_status final_cell(const summary *s, table *t, size_t column, double value, motus_error *err)
 {
     double error = NAN;
@@ -69,15 +69,14 @@ static motus_status final_cell(const summary *s, table *t, size_t column, double
     const motus_run_statistics done = motus_run_now(s->run);
     if (s->errors && undecided)
         table_cell(t, undecided_cell(s, value));
-    else if (s->errors &&
-             !(error == 0 && done.events_unseen)) /* what an event changes may be anything where one is missed */
+    else if (s->errors && !(error == 0 && done.events_unseen)) /* an event that was missed may have changed the value */
         table_bar(t, value, s->estimate.reason[0] ? NAN : error);
     else
         table_exact(t, value);
     return status;
 }
 
-/* The errors of a family: their root mean square, the largest, and where it is. */
+/* Adds the errors of a family: their root mean square, the largest one, and where it is. */
 static motus_status worst_cell(const summary *s, table *t, size_t first, size_t count, motus_error *err)
 {
     double *errors = NULL;
@@ -198,7 +197,7 @@ static table *invariant_table(const summary *s, motus_error *err, motus_status *
     return t;
 }
 
-/* "step 0.01"; "tolerance 1e-9, steps 0.02 to 0.3". */
+/* Writes "step 0.01", or "tolerance 1e-9, steps 0.02 to 0.3". */
 static void how_steps(const summary *s, char *out, size_t size)
 {
     char a[DECIMAL_MAX], b[DECIMAL_MAX], c[DECIMAL_MAX];
@@ -231,7 +230,7 @@ static void head(const summary *s, FILE *out, bool colours)
     else
         fprintf(out, "%s\n", done.machine);
     fprintf(out, "t = %s to %s in %lld steps", from, to, (long long)motus_run_steps(s->run));
-    const bool ended = motus_run_ended(s->run, NULL, NULL, NULL)[0]; /* then no step was shortened to end at `until` */
+    const bool ended = motus_run_ended(s->run, NULL, NULL, NULL)[0]; /* if so, `until` has shortened no step */
     if (done.shorter_last != 0 && !ended) fprintf(out, " (the last one %s)", last);
     if (done.refused > 0) fprintf(out, " and %lld refused", (long long)done.refused);
     fprintf(out, ", %lld evaluations", (long long)done.evaluations);
@@ -243,7 +242,7 @@ static void head(const summary *s, FILE *out, bool colours)
 motus_status summary_print(const summary *s, motus_error *err)
 {
     motus_status status = MOTUS_OK;
-    /* if a CSV is on standard output, the summary is a message */
+    /* if a CSV goes to standard output, the summary goes to standard error */
     const char *const files[] = {s->options->output, s->options->events};
     const bool data = (files[0] && strcmp(files[0], "-") == 0) || (files[1] && strcmp(files[1], "-") == 0);
     FILE *out = data ? stderr : stdout;
@@ -272,7 +271,7 @@ motus_status summary_print(const summary *s, motus_error *err)
 
 /* ---- JSON ---- */
 
-/* One cell: a number, or a list of components. */
+/* Writes a cell: a number, or a list of components. */
 static void cell_json(json *j, const char *key, const double *values, const figure_place *p, size_t cell, bool vector,
                       size_t *left)
 {
@@ -282,7 +281,7 @@ static void cell_json(json *j, const char *key, const double *values, const figu
     if (vector) json_close(j, ']');
 }
 
-/* Lists within lists, one level per index. */
+/* Writes lists within lists, a level for each index. */
 static void nest_json(json *j, const char *key, const double *values, const figure_place *p, const motus_variable *v,
                       int level, size_t *cell, size_t *left)
 {
@@ -302,7 +301,7 @@ static void variable_json(json *j, const char *key, const double *values, const 
     double grid = 1;
     for (int d = 0; d < v->dimensions; d++) grid *= (double)(v->last[d] - v->first[d] + 1);
     size_t cell = 0;
-    /* a family with holes in its ranges is a plain list of its cells */
+    /* a family that does not fill its ranges is a plain list of cells */
     if (v->dimensions == 0 || grid == (double)p->cells) {
         nest_json(j, key, values, p, v, 0, &cell, left);
         return;
@@ -312,7 +311,7 @@ static void variable_json(json *j, const char *key, const double *values, const 
     json_close(j, ']');
 }
 
-/* The numbers of all variables, as members of the open object. True: some are left out. */
+/* Writes the numbers of all variables as members of the open object. Returns whether some are left out. */
 static bool states_json(json *j, const summary *s, const double *values)
 {
     size_t left = SUMMARY_STATE_MAX;
@@ -356,7 +355,7 @@ static void invariants_json(json *j, const summary *s)
     json_close(j, '}');
 }
 
-/* The numbers of all quantities, or invariants, as members of the open object. */
+/* Writes the numbers of all quantities, or of all invariants, as members of the open object. */
 static void named_json(json *j, const summary *s, load_naming *name, const double *values)
 {
     size_t numbers = 0;
@@ -365,7 +364,7 @@ static void named_json(json *j, const summary *s, load_naming *name, const doubl
         numbers_json(j, one, values, numbers);
 }
 
-/* error{name: value}: null where it is not known, or where no digit is significant. */
+/* Writes error{name: value}, with null if the error is not known or no digit is significant. */
 static motus_status errors_json(json *j, const summary *s, motus_error *err)
 {
     const size_t quantities = load_quantity_column(s->model), invariants = load_invariant_column(s->model);
@@ -382,7 +381,7 @@ static motus_status errors_json(json *j, const summary *s, motus_error *err)
     return MOTUS_OK;
 }
 
-/* The table of events, as far as its numbers fit; their values are computed before the first is written. */
+/* Writes the table of events, as far as its numbers fit. `values` are those of event_values(). */
 static void events_json(json *j, const summary *s, const double *values, int64_t rows)
 {
     const size_t numbers = load_invariant_column(s->model) - 1;
@@ -408,7 +407,7 @@ static void events_json(json *j, const summary *s, const double *values, int64_t
     json_number(j, "events_unseen_from", done.events_unseen_from);
 }
 
-/* State and quantities on arrival at the first *rows events. */
+/* Computes state and quantities on arrival at the first *rows events. */
 static motus_status event_values(const summary *s, int64_t *rows, double **out, motus_error *err)
 {
     const size_t numbers = load_invariant_column(s->model) - 1;
@@ -424,7 +423,7 @@ static motus_status event_values(const summary *s, int64_t *rows, double **out, 
     return status;
 }
 
-/* A step, or what an adaptive method has made of its tolerance. */
+/* Writes the step, or the tolerance and the steps that an adaptive method has taken. */
 static void steps_json(json *j, const motus_run_statistics *done)
 {
     if (!isnan(done->accuracy)) {

@@ -14,29 +14,29 @@ typedef struct summary {
     motus_run *run;
     const deviation *deviation;
     double start, seconds;
-    double singularity; /* where the run has passed one; NaN: nowhere */
-    bool errors;        /* the run tells the errors of its numbers */
+    double singularity; /* the time of a singularity that the run has passed; NaN: there is none */
+    bool errors;        /* the run has the errors of its numbers */
     motus_estimate estimate;
-    const motus_error *singular; /* its status, if not 0: what the run passes unresolved */
-    const motus_error *missed;   /* its status, if not 0: the run has not reached its accuracy */
+    const motus_error *singular; /* status not 0: the run has passed something that its steps do not resolve */
+    const motus_error *missed;   /* status not 0: the run has not reached its accuracy */
 } summary;
 
 motus_status summary_print(const summary *, motus_error *);
 motus_status summary_json(const summary *, motus_error *);
 
-/* answer.c: what the errors of a finished run rest on, in words. */
+/* Prints what the errors of a finished run rest on (answer.c). */
 void answer_print(const summary *, FILE *);
-/* Why "auto" chose its method; nothing where it did not. */
+/* Prints why "auto" chose its method, if it did. */
 void answer_choice(const summary *, FILE *);
 
-/* event_table.c: the first events and the last, with the state on arrival. NULL: there are none, or no memory, as
- * *status says. */
+/* Makes the table of the first and the last events, with the state on arrival (event_table.c). Returns NULL if there
+ * are none, or if memory runs out, which *status says. */
 table *event_table_make(const summary *, motus_error *, motus_status *);
-/* What goes below the table: where the rest is. */
+/* Prints below the table what it does not show. */
 void event_table_note(const summary *, FILE *);
-/* Says where events may have been missed. */
+/* Prints where events may have been missed. */
 void event_table_unseen(const summary *, FILE *out);
-/* What ended the run before its time, and where events accumulate, a sentence each. */
+/* Prints a sentence for what ended the run before its time, and one for where events accumulate. */
 void event_table_end(const summary *, FILE *);
 
 #endif

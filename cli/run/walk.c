@@ -1,7 +1,7 @@
 /* Integrates a run to its end and calls observers.
  *
  * Invariant: before the run stands at step n, all samples at times up to that step have been taken, so the run never
- * goes back. Observing does not change the motion; without observers the run is one call.
+ * goes back. Observers do not change the motion; without them the run is one call.
  */
 #include "cli/run/walk.h"
 
@@ -15,26 +15,26 @@ enum { CHUNK = 64, LAST = 3 /* steps before the end that a keeper remembers */ }
 
 /* What an observer has had. */
 typedef struct progress {
-    int64_t samples; /* of its period */
-    int64_t jumps;   /* of those that the run has kept */
-    double *sides;   /* of the latest jump: before it, and after it */
-    double at;       /* its time; NaN: there was none */
+    int64_t samples; /* the number of samples of its period */
+    int64_t jumps;   /* the number of jumps, of those that the run keeps */
+    double *sides;   /* the values before and after the latest jump */
+    double at;       /* the time of the latest jump; NaN: there was none */
 } progress;
 
 typedef struct walker {
     motus_run *run;
     double start, until, step; /* step with its sign */
-    double *values;            /* room for CHUNK rows of the observer with the most columns */
-    bool adapts;               /* steps have no times that are known before */
+    double *values;            /* memory for CHUNK rows of the observer with the most columns */
+    bool adapts;               /* the steps are adaptive: their times are not known before */
     const walk_observer *observer;
     progress *done; /* of each observer */
     size_t count;
     walk_keeper keeper;
-    double kept, looked; /* seconds of the clock: when the run was kept, and when that was asked for */
-    int64_t kept_steps;  /* likewise its steps; */
-    int64_t piece;       /* how many steps are taken before the clock is looked at */
-    bool held;           /* signals are held back until the run is kept */
-    int64_t observed;    /* the steps of the run when it was last looked who is due */
+    double kept, looked; /* seconds of the clock: when the run was last saved, and when the clock was last read */
+    int64_t kept_steps;  /* the steps of the run when it was last saved */
+    int64_t piece;       /* the steps between two readings of the clock */
+    bool held;           /* signals are held back until the run is saved */
+    int64_t observed;    /* the steps of the run when observe_due() was last called */
 } walker;
 
 int64_t walk_steps_of(double period, double step)
@@ -48,10 +48,10 @@ int64_t walk_steps_of_run(const motus_run *run, double period)
     return isnan(motus_run_time_of(run, 0)) ? 0 : walk_steps_of(period, motus_run_now(run).step);
 }
 
-/* Between a step and what observers have of it no signal stops a run that is kept. */
+/* Holds back signals while a run that is saved has taken a step that observers have not had. */
 static void hold(const walker *w, bool on) { stop_hold(on || w->held); }
 
-/* Whether every one of the numbers is the same. */
+/* Compares numbers; NaN equals NaN. */
 static bool same(const double *a, const double *b, size_t count)
 {
     for (size_t k = 0; k < count; k++)
@@ -75,7 +75,7 @@ static motus_status jumps(walker *w, size_t i, double t, motus_error *err)
             status =
                 motus_run_jump(w->run, p->jumps, after, o->columns, o->count, &at, NULL, p->sides + after * row, err);
         if (status) return status;
-        /* what only kept numbers depend on is no jump of other columns */
+        /* an event that changes no state, and none of these columns, is not a jump */
         if (!moves && same(p->sides, p->sides + row, o->count)) continue;
         p->at = at;
         if (w->keeper.keep) *w->keeper.time = at;
@@ -107,26 +107,26 @@ static motus_status observe(walker *w, size_t i, motus_error *err)
     return status ? status : give_row(w, i, motus_run_time(w->run), w->values, err);
 }
 
-/* Whether an event has ended the run before time t. */
+/* Returns whether an event has ended the run before time t. */
 static bool beyond(const walker *w, double t)
 {
     const double end = motus_run_time(w->run);
     return motus_run_ended(w->run, NULL, NULL, NULL)[0] && (w->step < 0 ? t < end : t > end);
 }
 
-/* The values at *n times, fewer where an event ends the run before the last of them. */
+/* Finds the values at *n times. Reduces *n if an event ends the run before the last of them. */
 static motus_status sample_values(walker *w, const walk_observer *o, const double *times, size_t *n, motus_error *err)
 {
     motus_error own = motus_default_error();
     const motus_status status = motus_run_sample(w->run, times, *n, o->columns, o->count, w->values, &own);
     const size_t all = *n;
     while (*n > 0 && beyond(w, times[*n - 1])) --*n;
-    if (!status || (status == MOTUS_ARGUMENT && *n < all)) return MOTUS_OK; /* rows are filled in their order */
+    if (!status || (status == MOTUS_ARGUMENT && *n < all)) return MOTUS_OK; /* the rows before that were filled */
     if (err) *err = own;
     return status;
 }
 
-/* One time, of which the values and the errors lie side by side. */
+/* Gives the observer the values at one time, with their errors. */
 static motus_status sample_errors(walker *w, size_t i, double t, motus_error *err)
 {
     const walk_observer *o = &w->observer[i];
@@ -138,13 +138,14 @@ static motus_status sample_errors(walker *w, size_t i, double t, motus_error *er
     return status ? status : give_row(w, i, t, w->values, err);
 }
 
-/* Takes the samples of observer i at times start + k period that it has not had, up to `limit`; the end is observed
- * when it is reached. */
+/* Gives observer i the samples at times start + k period that it has not had, up to `limit`, but not the end, which
+ * observe_due() gives. */
 static motus_status sample(walker *w, size_t i, double limit, motus_error *err)
 {
     const walk_observer *o = &w->observer[i];
-    /* the run moves to times that it samples: one that is kept must not be left beyond a time that nobody has had; and
-     * at the instant of a jump the values are those of one side or the other, by what was asked for before */
+    /* One time at once: the run moves to the times that it samples, and a run that is saved must not stop beyond a time
+     * that an observer has not had. And at the instant of a jump, it depends on the times sampled before which side the
+     * values are from. */
     const bool kept = w->keeper.keep != NULL;
     const size_t most = kept || o->jump ? 1 : CHUNK;
     int64_t *k = &w->done[i].samples;
@@ -170,8 +171,8 @@ static motus_status sample(walker *w, size_t i, double limit, motus_error *err)
     }
 }
 
-/* Gives the observers the jumps up to the present time. *all: that is all that the run knows of; it may know of some
- * that lie ahead, and a state would not tell of them again. */
+/* Gives the observers the jumps up to the present time. *all says whether the run knows no jump ahead; if it does, a
+ * saved state would lack that jump. */
 static motus_status give_jumps(walker *w, bool *all, motus_error *err)
 {
     motus_status status = MOTUS_OK;
@@ -182,8 +183,7 @@ static motus_status give_jumps(walker *w, bool *all, motus_error *err)
     return status;
 }
 
-/* Pieces of steps between two looks at the clock take about a hundredth of the time between two states that are
- * kept. */
+/* Saves the run if it is due. The clock is read about a hundred times between two saved states. */
 static motus_status keep(walker *w, motus_error *err)
 {
     const walk_keeper *k = &w->keeper;
@@ -204,7 +204,7 @@ static motus_status keep(walker *w, motus_error *err)
     return status;
 }
 
-/* The first of the last steps; INT64_MAX: nobody remembers them. */
+/* Returns the first of the last steps; INT64_MAX: the keeper does not remember them. */
 static int64_t last_steps(const walker *w)
 {
     const int64_t total = motus_run_now(w->run).steps_total;
@@ -221,7 +221,7 @@ static motus_status remember(walker *w, motus_error *err)
     return w->keeper.remember(w->keeper.context, err);
 }
 
-/* The next step at which an observer is due, or the clock is to be looked at; INT64_MAX: none before the end. */
+/* Returns the next step at which an observer is due or the clock is read; INT64_MAX: none before the end. */
 static int64_t next_stop(const walker *w)
 {
     int64_t next = INT64_MAX;
@@ -257,14 +257,15 @@ static motus_status sample_all(walker *w, double limit, motus_error *err)
     return status;
 }
 
-/* A run that misses its accuracy is at its end all the same; the command says so after it has shown the numbers. */
+/* Takes n steps. MOTUS_ACCURACY is no failure here: the run is at its end, and the command reports it after the
+ * numbers. */
 static motus_status step(motus_run *run, int64_t n, motus_error *err)
 {
     const motus_status status = motus_run_step(run, n, err);
     return status == MOTUS_ACCURACY ? MOTUS_OK : status;
 }
 
-/* The run keeps jumps until every observer has had them. */
+/* Lets the run forget its jumps if every observer has had them. */
 static void forget_jumps(walker *w)
 {
     const int64_t kept = motus_run_jumps(w->run);
@@ -275,7 +276,7 @@ static void forget_jumps(walker *w)
     for (size_t i = 0; i < w->count; i++) w->done[i].jumps = 0;
 }
 
-/* The steps up to the next at which an observer, or the keeper, is due, at most `most`. */
+/* Takes the steps up to the next one at which an observer or the keeper is due, at most `most`. */
 static motus_status advance(walker *w, int64_t most, bool periods, motus_error *err)
 {
     motus_status status = MOTUS_OK;
@@ -283,14 +284,14 @@ static motus_status advance(walker *w, int64_t most, bool periods, motus_error *
     int64_t next = next_stop(w);
     if (next - now > most) next = now + most;
     const double limit = w->adapts ? NAN : motus_run_time_of(w->run, next);
-    /* where steps adapt, the times within a step are sampled after it */
+    /* with adaptive steps, the times within a step are sampled after it */
     const bool after = periods && isnan(limit);
     if (after)
         next = now + 1;
     else
         status = sample_all(w, limit, err);
     const bool held = w->held;
-    w->held = held || (w->keeper.keep && after); /* as in sample(): this one step, and the times in it */
+    w->held = held || (w->keeper.keep && after); /* until the observers have had the times in this step */
     hold(w, false);
     if (!status && motus_run_steps(w->run) < next) status = step(w->run, next - motus_run_steps(w->run), err);
     if (!status && isnan(limit)) status = sample_all(w, motus_run_time(w->run), err);
@@ -301,7 +302,7 @@ static motus_status advance(walker *w, int64_t most, bool periods, motus_error *
     return status;
 }
 
-/* A run that a signal stops goes on to where it can be kept. True: that is its end, and all is observed. */
+/* Continues a run that a signal has stopped to where it can be saved, and saves it. Returns whether that is its end. */
 static bool keep_stopped(walker *w, bool periods)
 {
     enum { MOST = 1000 };
@@ -309,9 +310,9 @@ static bool keep_stopped(walker *w, bool periods)
     bool all;
     w->held = true;
     hold(w, true);
-    /* the signal may have come with the step at which somebody is due, or between two times of one step */
     motus_status status = MOTUS_OK;
-    /* or with the last step, so that the run does not know yet that it is at its end */
+    /* the signal may have come with the last step, so that the run does not know yet that it is at its end; or
+     * before an observer had a step or a time within a step */
     if (!motus_run_done(w->run) && motus_run_time(w->run) == w->until) status = step(w->run, 1, &ignored);
     if (!status) status = sample_all(w, motus_run_time(w->run), &ignored);
     if (!status && motus_run_steps(w->run) != w->observed) status = observe_due(w, &ignored);
@@ -346,7 +347,7 @@ static motus_status go(walker *w, motus_error *err)
     return status;
 }
 
-/* Room for the sides of jumps, and where the grids of times begin. */
+/* Makes memory for the sides of jumps, and finds where the grids of times continue. */
 static motus_status prepare(walker *w, motus_error *err)
 {
     const bool first = motus_run_steps(w->run) == 0;
@@ -358,7 +359,7 @@ static motus_status prepare(walker *w, motus_error *err)
         w->done[i].sides = o->jump ? malloc((room + 1) * sizeof *w->done[i].sides) : NULL;
         if (o->jump && !w->done[i].sides) status = complain_memory(err);
         for (size_t k = 0; !status && o->jump && k < room; k++) w->done[i].sides[k] = NAN;
-        /* a restarted run continues the grid of times from where it is */
+        /* a restarted run continues the grid of times from its present time */
         if (w->keeper.goes_on && i == 0)
             w->done[i].samples = o->had;
         else if (o->period > 0 && !first)
@@ -372,7 +373,7 @@ motus_status walk(motus_run *run, double start, double until, const walk_observe
 {
     double size = motus_run_now(run).step;
     const bool adapts = isnan(size);
-    if (adapts) size = 1e-6 * fabs(until - start); /* steps adapt: of it only the sign, and a slack, are used */
+    if (adapts) size = 1e-6 * fabs(until - start); /* only its sign is used, and the slack that follows from it */
     walker w = {.run = run,
                 .start = start,
                 .until = until,
