@@ -227,7 +227,7 @@ for damage in none "a byte of a block" "a byte of the line behind it" "all"; do
     that "... and all rows" [ "$(sum "$place/cut.h5")" = "$(sum "$place/further.h5")" ]
     that "... and nothing beside them" absent "$place/cut.csv.segments"
 done
-refuses "a table that was shortened" 2 "is damaged: what is behind its byte" eval "head -n 500 '$place/further.csv' >'$place/cut.csv'; ${further[*]@Q} -o '$place/cut.h5' --events '$place/cut.csv' --resume"
+refuses "a table that was shortened" 2 "is damaged: after byte" eval "head -n 500 '$place/further.csv' >'$place/cut.csv'; ${further[*]@Q} -o '$place/cut.h5' --events '$place/cut.csv' --resume"
 gives "... is replaced by --force" 0 "${further[@]}" -o "$place/cut.h5" --events "$place/cut.csv" --force
 that "... with the same bytes" cmp "$place/cut.csv" "$place/further.csv"
 refuses "two columns of one name" 2 "two columns of the archive are named x" "$motus" sweep "$swing" --vary "x(0)=0.1,1" --record "final,x" -o "$place/twice.h5"
@@ -262,8 +262,8 @@ import h5py, sys
 with h5py.File(sys.argv[1]) as f: at = f['sweep/trajectory'].id.get_offset()
 with open(sys.argv[1], 'r+b') as f: f.seek(at + 80); f.write(b'x')
 " "$place/turn.h5"
-refuses "... motus archive finds it" 2 "row 10 has the number 120 in place of 10" "$motus" archive "$place/turn.h5"
-refuses "... and --resume" 2 "in place of 10" "${turn[@]}" -o "$place/turn.h5" --events "$place/turn.csv" --resume
+refuses "... motus archive finds it" 2 "row 10 has the number 120 instead of 10" "$motus" archive "$place/turn.h5"
+refuses "... and --resume" 2 "instead of 10" "${turn[@]}" -o "$place/turn.h5" --events "$place/turn.csv" --resume
 # Merges of one name at the same time: one of them is refused, and the file is whole.
 for _ in 1 2 3 4 5; do
     "$motus" merge "$place"/part[1-5].h5 -o "$place/same.h5" -q --force 2>/dev/null &
@@ -297,7 +297,7 @@ gives "... once more" 0 long -o "$place/packed1.h5" --resume --compress --json
 that "... finds all of it" holds '.resumed == 30000'
 that "... and touches nothing" [ "$(sum "$place/packed1.h5")" = "$packed" ]
 gives "motus archive lists it" 0 "$motus" archive "$place/packed.h5"
-that "... whose blocks are all there" says "in 8 compressed blocks: all there, with the hashes that were written"
+that "... whose blocks are all there" says "in 8 compressed blocks: all there, and their hashes match"
 gives "... verifies it" 0 "$motus" archive "$place/packed.h5" --verify all
 gives "... writes its CSV" 0 "$motus" archive "$place/packed.h5" -o "$place/packed.csv"
 gives "... as that of the other" 0 "$motus" archive "$place/long.h5" -o "$place/unpacked.csv"
@@ -344,7 +344,7 @@ if "${CC:-cc}" -std=c17 -O1 -I include test/archive/change.c "$build/libmotus-ar
     cp "$place/long.h5" "$place/changed.h5"
     "$change" "$place/changed.h5" 1 5000
     gives "a number is changed, and the hash fits" 0 "$motus" archive "$place/changed.h5"
-    refuses "... --verify finds it" 1 "1 of 8 blocks are not what is computed; trajectory 5000, x: " "$motus" archive "$place/changed.h5" --verify all
+    refuses "... --verify finds it" 1 "1 of 8 blocks differ from what is computed; trajectory 5000, x: " "$motus" archive "$place/changed.h5" --verify all
 else
     echo "not run, since no C program links here: a number that is changed"
 fi
@@ -352,7 +352,7 @@ printf 'a\n0.5\n0.75\n' >"$place/a.csv"
 (cd "$place" && "$motus" sweep "$swing" --vary "k=@a.csv:a" -o file.h5 -q)
 gives "values of a file" 0 bash -c "cd '$place' && '$motus' archive file.h5 --verify all"
 sed -i s/75/25/ "$place/a.csv"
-refuses "... which has changed" 2 "does not make its fingerprint" bash -c "cd '$place' && '$motus' archive file.h5 --verify all"
+refuses "... which has changed" 2 "has another fingerprint than the archive" bash -c "cd '$place' && '$motus' archive file.h5 --verify all"
 rm "$place/a.csv"
 refuses "... or is not there" 1 "cannot read" bash -c "cd '$place' && '$motus' archive file.h5 --verify all"
 

@@ -114,7 +114,7 @@ that "... has as many orders as there are" says "#define FACT_expands 26"
 refuses "--emit-c with a tolerance where steps have one size" 2 "a tolerance is given, and the steps of verlet have one size" "$motus" run $osc --emit-c --method verlet --tolerance 1e-6
 refuses "motus cache alone" 2 "motus cache needs --clear" "$motus" cache
 refuses "--set of a parameter to the time" 2 "cannot depend on a state" "$motus" run $oscillator --set F=t
-refuses "--machine abacus" 2 "none of its words" "$motus" run $osc --machine abacus
+refuses "--machine abacus" 2 "unknown value" "$motus" run $osc --machine abacus
 for bad in 0 -1 nan inf 1e999 0,1 0x10 1/0 abc '' 1e-2x; do refuses "--step '$bad'" 2 "--step" "$motus" run $osc --step "$bad"; done
 for bad in nan inf abc 1/x pi2 ''; do refuses "--until '$bad'" 2 "--until" "$motus" run $osc --until "$bad"; done
 for bad in 0 -1 x '0 steps' '1.5 steps' '10 stops' '-3 steps'; do refuses "--every '$bad'" 2 "--every" "$motus" run $osc -o - --every "$bad"; done
@@ -181,12 +181,12 @@ that "--error none: the same numbers, and no key" [ "$(jq -c '[.state, has("erro
 gives "run for people says its error" 0 "$motus" run $oscillator
 that "... behind the number" says "0.0477824 ± 1.5e-6"
 that "... that it is the error of the step" says "± is the error of h = 0.001"
-that "... and what it cost" says "telling the errors took 2 × the work of the run"
+that "... and what it cost" says "finding the errors took 2 × the work of the run"
 gives "--error none for people" 0 "$motus" run $oscillator --error none
 that "... prints all digits" says "0.047782398071872206"
 that "... and no error" lacks "±"
 gives "--error full" 0 "$motus" run $oscillator --error full
-that "... costs three times" says "telling the errors took 3 × the work of the run"
+that "... costs three times" says "finding the errors took 3 × the work of the run"
 gives "chaos" 0 "$motus" run models/henon-heiles.motus --until 900
 that "... has an end" says "no digit is known to be significant after t = 3"
 that "... and a rate" says "errors grow as e^{0.04"
@@ -208,8 +208,8 @@ that "... that cover the exact motion" eval "awk -F, '\$1 == 100 { e = \$2 - 0.0
 gives "--errors beyond the end of significance" 0 "$motus" run models/henon-heiles.motus --until 900 -o - --errors --every 100 --columns "x" --quiet
 that "... keeps the numbers, marked" eval "tail -n 1 '$out' | grep -qE '^-?0\.[0-9]+,inf,0$'"
 refuses "--errors without -o" 2 "needs -o" "$motus" run $osc --errors
-refuses "--errors with --error none" 2 "needs errors" "$motus" run $osc --errors --error none -o e.csv
-refuses "--error of another kind" 2 "none of its words" "$motus" run $osc --error some
+refuses "--errors with --error none" 2 "exclude each other" "$motus" run $osc --errors --error none -o e.csv
+refuses "--error of another kind" 2 "unknown value" "$motus" run $osc --error some
 
 gives "run --quiet" 0 "$motus" run $osc --quiet
 that "... is quiet" empty "$out"
@@ -815,7 +815,7 @@ x(0) = 0
 x'(0) = 0
 M
 gives "check: switching surfaces" 0 "$motus" check "$place/switches.motus"
-that "... each with what becomes of runs there" says "V - x' = 0, where sign(V - x') changes: steps lead across, since switches are not located unless"
+that "... each with what becomes of runs there" says "V - x' = 0, where sign(V - x') changes: steps cross it, since switches are not located unless"
 "$motus" check "$place/switches.motus" --set V=1 --json >"$out" 2>"$err"
 that "... in JSON" holds '.switches == [{"operation": "sign(V - x'"'"')", "surface": "V - x'"'"' = 0", "count": 1, "located": false, "not_located": "switches are not located unless asked for, since the force may be undefined beyond one", "sliding": "held"}, {"operation": "max(x, 1)", "surface": "x = 1", "count": 1, "located": false, "not_located": "switches are not located unless asked for, since the force may be undefined beyond one", "sliding": "passes"}]'
 printf "x'' = -x - 0.1 sign(x')\nx(0) = 1\nx'(0) = 0\n" >"$place/dry.motus"

@@ -236,8 +236,8 @@ if command -v gnuplot >/dev/null; then
     gives "a bifurcation diagram is drawn" 0 "$motus" sweep "$turn" --vary "w=1:3:21" --section "every 1" --plot-of "w,x" --plot "$place/fork.svg" -o "$place/fork.csv" --quiet
     that "... with the varied number as abscissa" eval "grep -q '>w<\|>w</tspan>' '$place/fork.svg' && grep -q '>x<\|>x</tspan>' '$place/fork.svg'"
     that "... in one colour" lacks "palette" "$place/fork.svg"
-    refuses "a plane of varied numbers" 2 "neither is of the motion" "$motus" sweep "$turn" --vary "w=1,2" --vary "x(0)=0,1" --section "every 1" --plot-of "w,x(0)" --plot "$place/none.svg" -o "$place/unwritten.csv"
-    refuses "no point of a sweep" 2 "none of its points is left to draw" "$motus" sweep "$turn" --vary "w=1,2" --section "x = 100" --plot "$place/none.svg" -o "$place/unwritten.csv" --force
+    refuses "a plane of varied numbers" 2 "one must be of the motion" "$motus" sweep "$turn" --vary "w=1,2" --vary "x(0)=0,1" --section "every 1" --plot-of "w,x(0)" --plot "$place/none.svg" -o "$place/unwritten.csv"
+    refuses "no point of a sweep" 2 "there are no points left to draw" "$motus" sweep "$turn" --vary "w=1,2" --section "x = 100" --plot "$place/none.svg" -o "$place/unwritten.csv" --force
     refuses "two files of one name" 2 "is named for two outputs" "$motus" sweep "$turn" --vary "w=1,2" --section "every 1" --plot "$place/none.svg" -o "$place/none.svg"
 fi
 refuses "points of no section" 2 "--points needs --section" "$motus" run $henon --points 3
@@ -321,7 +321,7 @@ shortened() {
             head -c "$left" "$place/flock.csv" >"$place/flock2.csv"
             cp "$place/flock2.csv" "$place/kept.csv" && cp "$place/flock.rows" "$place/flock2.csv.check"
             "$motus" sweep $flock -o "$place/again.csv" --events "$place/flock2.csv" --resume >"$out" 2>"$err"
-            [ $? = 2 ] && grep -q "does not have all events of the\|is damaged: what is behind its byte" "$err" && says "compute both anew: --force" "$err" &&
+            [ $? = 2 ] && grep -q "does not have all events of the\|is damaged: after byte" "$err" && says "compute both again: --force" "$err" &&
                 cmp "$place/again.csv" "$place/$rows.csv" && cmp "$place/flock2.csv" "$place/kept.csv" || { echo "$left bytes, $rows"; return 1; }
         done
     done
@@ -352,7 +352,7 @@ refuses "an older table of events" 2 "does not have all events of the 24 traject
 cp "$place/flock.csv" "$place/flock2.csv"
 cp "$place/flock.csv" "$place/flock2.csv" && cp "$place/flock.rows" "$place/flock2.csv.check"
 sed -i '20s/1/2/' "$place/flock2.csv"
-refuses "an event that was changed" 2 "flock2.csv is damaged: what is behind its byte" "$motus" sweep $flock -o "$place/again.csv" --events "$place/flock2.csv" --resume
+refuses "an event that was changed" 2 "flock2.csv is damaged: after byte" "$motus" sweep $flock -o "$place/again.csv" --events "$place/flock2.csv" --resume
 rm "$place/flock2.csv.check" && cp "$place/flock.csv" "$place/flock2.csv"
 refuses "events without their checks" 2 "flock2.csv has rows, but" "$motus" sweep $flock -o "$place/again.csv" --events "$place/flock2.csv" --resume
 gives "the events of a sweep with errors" 0 "$motus" sweep $flock --errors -o "$place/again.csv" --events "$place/errors.csv" --force

@@ -116,9 +116,9 @@ cp alone1.csv cut1.csv
 refuses "a shard given twice is named" 2 "alone1.csv and cut1.csv are both shard 1/3" "$motus" merge alone1.csv cut1.csv alone2.csv -o no.csv
 refuses "a shard of another division" 2 "is shard 1/3, but row1.csv is shard 1/2" "$motus" merge alone1.csv row1.csv -o no.csv
 sweep ball.motus --vary "e=0.1:0.9:9001" --until 3 --record y -q --shard 1/2 -o other.csv
-refuses "a shard of another sweep" 2 "other.csv and row2.csv are of different sweeps" "$motus" merge other.csv row2.csv -o no.csv
+refuses "a shard of another sweep" 2 "other.csv and row2.csv are from different sweeps" "$motus" merge other.csv row2.csv -o no.csv
 refuses "a whole sweep" 2 "all.csv is a whole sweep, not a shard" "$motus" merge all.csv -o no.csv
-refuses "a whole .npy" 2 "is not a shard, by the .json beside it" "$motus" merge all.npy -o no.npy
+refuses "a whole .npy" 2 "is not a shard, according to the .json beside it" "$motus" merge all.npy -o no.npy
 refuses "a model" 2 "swing.motus is not the table of a sweep" "$motus" merge swing.motus -o no.csv
 refuses "a file that is not there" 1 "cannot read none.csv" "$motus" merge none.csv -o no.csv
 refuses "no file" 2 "no file to merge" "$motus" merge -o no.csv
@@ -129,7 +129,7 @@ refuses "CSV as .npy" 2 "the shards are CSV" "$motus" merge row1.csv row2.csv -o
 sed '6s/^[0-9]*/7/' row2.csv >damaged.csv
 refuses "a row that is not in its place" 2 "damaged.csv is damaged: the row of trajectory" "$motus" merge row1.csv damaged.csv -o no.csv
 { cat row2.csv; tail -n 1 row2.csv; } >damaged.csv
-refuses "a row too many" 2 "there is more behind its last trajectory" "$motus" merge row1.csv damaged.csv -o no.csv
+refuses "a row too many" 2 "it continues after its last trajectory" "$motus" merge row1.csv damaged.csv -o no.csv
 that "nothing of what was refused is written" absent no.csv
 # What has another digit than its sweep wrote, or has bytes too many, is refused; what has no checks is taken, and that is said.
 changed() {                  # file, copy, what is done to the digit b[at]
@@ -141,17 +141,17 @@ open('$2', 'wb').write(b)"
 }
 for change in 'b[at] ^= 1' 'b[at:at] = b[at:at + 1]' 'del b[at]'; do
     changed row2.csv damaged.csv "$change"
-    refuses "rows changed by $change" 2 "damaged.csv is damaged: what is behind its byte" "$motus" merge row1.csv damaged.csv -o no.csv
+    refuses "rows changed by $change" 2 "damaged.csv is damaged: after byte" "$motus" merge row1.csv damaged.csv -o no.csv
     changed event2.csv damaged.csv "$change"
-    refuses "events changed by $change" 2 "damaged.csv is damaged: what is behind its byte" "$motus" merge event1.csv damaged.csv -o no.csv
+    refuses "events changed by $change" 2 "damaged.csv is damaged: after byte" "$motus" merge event1.csv damaged.csv -o no.csv
 done
 changed end2.npy damaged.npy 'b[at] ^= 1' && cp end2.npy.json damaged.npy.json
-refuses "rows of a .npy" 2 "damaged.npy is damaged: what is behind its byte" "$motus" merge end1.npy damaged.npy -o no.npy
+refuses "rows of a .npy" 2 "damaged.npy is damaged: after byte" "$motus" merge end1.npy damaged.npy -o no.npy
 cp row2.csv damaged.csv && rm damaged.csv.check
 gives "rows without checks" 0 "$motus" merge row1.csv damaged.csv -o merged.csv --force
-that "  are said" says "damaged.csv.check is not there: whether these rows are those that were written was not checked" "$err"
+that "  are said" says "damaged.csv.check is missing: the rows could not be checked" "$err"
 for wrong in 0/3 4/3 3 a/3 3/ 1/3x 1/0 -1/3 1/99999999999999999999; do
-    refuses "--shard $wrong" 2 "this is no shard" "$motus" sweep "${vary[@]}" --shard "$wrong"
+    refuses "--shard $wrong" 2 "this is not a shard" "$motus" sweep "${vary[@]}" --shard "$wrong"
 done
 refuses "too many shards" 2 "at most 1000000 shards" "$motus" sweep "${vary[@]}" --shard 1/1000001
 
@@ -159,8 +159,8 @@ refuses "too many shards" 2 "at most 1000000 shards" "$motus" sweep "${vary[@]}"
 array() { SLURM_ARRAY_TASK_ID=$1 SLURM_ARRAY_TASK_COUNT=$2 SLURM_ARRAY_TASK_MIN=$3 SLURM_ARRAY_TASK_MAX=$4 "${@:5}"; }
 gives "a task of an array is a shard" 0 array 2 2 1 2 "$motus" sweep "${vary[@]}" --shard slurm -o "task%K.csv"
 that "  with its number in the name" same task2.csv row2.csv
-refuses "a task submitted again by itself is not" 2 "this array has the tasks 7 to 7, 1 of them" array 7 1 7 7 "$motus" sweep "${vary[@]}" --shard slurm
-refuses "nor is an array from 0" 2 "this array has the tasks 0 to 9, 10 of them" array 3 10 0 9 "$motus" sweep "${vary[@]}" --shard slurm
+refuses "a task submitted again by itself is not" 2 "this array has tasks 7 to 7 (1 of them)" array 7 1 7 7 "$motus" sweep "${vary[@]}" --shard slurm
+refuses "nor is an array from 0" 2 "this array has tasks 0 to 9 (10 of them)" array 3 10 0 9 "$motus" sweep "${vary[@]}" --shard slurm
 refuses "nor a command outside an array" 2 "SLURM_ARRAY_TASK_ID is not a number in the environment" "$motus" sweep "${vary[@]}" --shard slurm
 
 echo "$passed passed, $failed failed"

@@ -275,7 +275,7 @@ import h5py
 with h5py.File('told.h5') as f: at = f['run/t'].id.get_offset()
 with open('told.h5', 'r+b') as f: f.seek(at + 80); f.write(b'x')"
 gives "... motus archive says so" 0 "$motus" archive told.h5
-that "... and that it cannot go on" says "cannot go on with this file"
+that "... and that it cannot go on" says "cannot continue this file"
 refuses "... nor does it" 2 "no state with all the rows before it" "$motus" run told.h5 --until 600
 : >empty.h5
 refuses "an empty file" 2 "is empty" "$motus" archive empty.h5

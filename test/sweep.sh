@@ -82,8 +82,8 @@ that "a line counts the trajectories without a significant digit" grep -q "no di
 "$motus" run pendulum.motus --method rk4 --step 2 --until 1000 --error none >"$out" 2>"$err"
 that "... and a run without errors says that its steps are too long" grep -q "steps of 2 by rk4 are too long: where the motion swings" "$err"
 refuses "the error of a time" 2 "record 1 is the time of a maximum, which has no error" "$motus" sweep osc.motus --vary F=1 --record "x, time_of_max(x)" --errors
-refuses "errors by no companion" 2 "--errors needs errors" "$motus" sweep osc.motus --vary F=1 --errors --error none
-refuses "a companion for nothing" 2 "a sweep tells errors in columns of their own" "$motus" sweep osc.motus --vary F=1 --error full
+refuses "errors by no companion" 2 "--errors and --error none exclude each other" "$motus" sweep osc.motus --vary F=1 --errors --error none
+refuses "a companion for nothing" 2 "--error needs --errors in a sweep" "$motus" sweep osc.motus --vary F=1 --error full
 sweep blow.motus --vary k=-1,1 --record x --errors -q >"$out"
 that "a trajectory that stops has no error" is "$(rows | sed 1d | cut -d, -f3-5)" ",,"
 
@@ -153,7 +153,7 @@ values_refused "... a pipe that nobody writes" 1 "no program has opened it to wr
 (sleep 0.3; timeout 20 bash -c "printf '1\\n2\\n4\\n' >pipe.csv") &
 values "a pipe that is written later" --vary a=@pipe.csv "1 2 4"
 wait
-refuses "merge of what is no file" 2 "pipe.csv is no regular file" "$motus" merge pipe.csv pipe.csv -o nothing.csv
+refuses "merge of what is no file" 2 "pipe.csv is not a regular file" "$motus" merge pipe.csv pipe.csv -o nothing.csv
 rm zero.csv long.csv pipe.csv
 rmdir folder.csv
 values "a file of one column without a head" --vary a=@plain.csv "1 2 4"
@@ -567,10 +567,10 @@ for kind in csv npy; do
         that "... with 8 bytes too many" changed $kind 'b[at:at] = b[at:at + 8]' $rows
     done
     cp whole.$kind cut.$kind && rm cut.$kind.check
-    refuses "--resume of a .$kind without its checks" 2 "cut.$kind has rows, but cut.$kind.check is gone" "$motus" sweep "${ask[@]}" -o cut.$kind --resume
+    refuses "--resume of a .$kind without its checks" 2 "cut.$kind has rows, but cut.$kind.check is missing" "$motus" sweep "${ask[@]}" -o cut.$kind --resume
     that "... the file stays" cmp whole.$kind cut.$kind
     echo something >cut.$kind.check
-    refuses "a file that has their name" 2 "cut.$kind.check is in the way" "$motus" sweep "${ask[@]}" -o cut.$kind --force
+    refuses "a file that has their name" 2 "cut.$kind.check is another file" "$motus" sweep "${ask[@]}" -o cut.$kind --force
 done
 refuses "a .npy that is there" 2 "whole.npy exists" "$motus" sweep "${ask[@]}" -o whole.npy
 
@@ -685,7 +685,7 @@ bad "a record of an unknown name" "energi" osc.motus --vary F=1,2 --record energ
 bad "a hole in --record" "a name is missing" osc.motus --vary F=1,2 --record x,,energy
 bad "--every between steps" "not a multiple of the step" osc.motus --vary F=1,2 --record "max(x)" --every 0.013
 for threads in 0 -1 x 99999999999; do bad "--threads $threads" "--threads" osc.motus --vary F=1,2 --threads "$threads"; done
-bad "--machine abacus" "none of its words" osc.motus --vary F=1,2 --machine abacus
+bad "--machine abacus" "unknown value" osc.motus --vary F=1,2 --machine abacus
 bad "a method that does not fit" "pefrl" "$root/models/damped-cubic.motus" --vary "x(0)=1,2" --method pefrl
 bad "--columns" "motus sweep takes no --columns" osc.motus --vary F=1,2 --columns x
 bad "--force and --resume" "exclude each other" osc.motus --vary F=1,2 --force --resume

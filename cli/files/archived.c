@@ -36,8 +36,8 @@ motus_status archived_numbers(motus_archive *a, const char *path, uint64_t block
         for (size_t i = 0; !status && i < some; i++) {
             const uint64_t number = archived_sweep(a) ? shard_trajectory(&of, row + i) : row + i;
             if (its[i] == (int64_t)number) continue;
-            status = complain(err, MOTUS_STATE, "take a copy, or compute it anew: --force",
-                              "%s is damaged: row %" PRIu64 " has the number %" PRId64 " in place of %" PRIu64, path,
+            status = complain(err, MOTUS_STATE, "use a copy of the file, or compute it again: --force",
+                              "%s is damaged: row %" PRIu64 " has the number %" PRId64 " instead of %" PRIu64, path,
                               row + i, its[i], number);
         }
     }
@@ -60,7 +60,7 @@ bool archived_says(const motus_archive *file, const char *name, const char *text
 
 motus_status archived_by_other(const char *path, const char *version, const char *why, motus_error *err)
 {
-    return complain(err, MOTUS_STATE, "finish it with that version, or begin anew with --force",
+    return complain(err, MOTUS_STATE, "finish it with that version, or start again with --force",
                     "%s was begun by motus %.40s, and %s", path, version, why);
 }
 

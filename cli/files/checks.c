@@ -116,8 +116,8 @@ motus_status checks_begin(checks *c, const char *file, uint64_t from, bool at_on
     motus_status status = name_of(c, file, from, err);
     if (status) return status;
     if (!may_replace(c->path))
-        return complain(err, MOTUS_ARGUMENT, "give one of them another name",
-                        "%s is in the way: the checks of %s have this name", c->path, file);
+        return complain(err, MOTUS_ARGUMENT, "rename one of the two files",
+                        "%s is another file, but the checks of %s need this name", c->path, file);
     status = file_create(&c->out, c->path, err);
     if (!status) status = file_text(&c->out, first_line, err);
     if (!status && at_once) {
@@ -241,16 +241,15 @@ motus_status checks_go_on(checks *c, int descriptor, uint64_t end, motus_error *
     const size_t count = (size_t)(end - first);
     if (ftruncate(c->descriptor, (off_t)(HEAD + c->lines * LINE)) != 0) return cannot("write", c, errno, err);
     if (read_at(descriptor, c->piece + first % CHECKS_PIECE, count, first) != (ssize_t)count)
-        return fail(err, MOTUS_FILE, "cannot read what %s has the checks of: %s", c->path, strerror(errno));
+        return fail(err, MOTUS_FILE, "cannot read the table that belongs to %s: %s", c->path, strerror(errno));
     c->end = end;
     return checks_mark(c, err);
 }
 
 motus_status checks_refuse(const checks *c, const char *file, motus_error *err)
 {
-    return complain(err, MOTUS_STATE, "put it back; or compute all of it anew: --force in place of --resume",
-                    "%s has rows, but %s is gone, by which it is known that they are those that were written", file,
-                    c->path);
+    return complain(err, MOTUS_STATE, "restore it, or compute all rows again: --force instead of --resume",
+                    "%s has rows, but %s is missing, which shows whether they are as they were written", file, c->path);
 }
 
 void checks_close(checks *c)

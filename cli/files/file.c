@@ -75,7 +75,7 @@ static motus_status wait_for_writer(int fd, const char *path, int *first, motus_
     const ssize_t got = read(fd, &byte, 1);
     if (got > 0) *first = byte;
     if (got != 0) return MOTUS_OK;
-    return complain(err, MOTUS_FILE, "start the program that writes it before",
+    return complain(err, MOTUS_FILE, "start the program that writes it first",
                     "cannot read %s: it is a pipe, and no program has opened it to write within %d s", path,
                     WAIT_MS / 1000);
 }
@@ -93,7 +93,7 @@ motus_status file_open(const char *path, FILE **in, motus_error *err)
     else if (S_ISDIR(about.st_mode))
         status = cannot_read(path, "it is a folder", err);
     else if (!S_ISREG(about.st_mode) && !S_ISFIFO(about.st_mode) && !isatty(fd))
-        status = cannot_read(path, "it is a device, no file and no pipe", err);
+        status = cannot_read(path, "it is a device, not a file or a pipe", err);
     else if (S_ISFIFO(about.st_mode))
         status = wait_for_writer(fd, path, &first, err);
     const int flags = fcntl(fd, F_GETFL);

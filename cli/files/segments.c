@@ -160,7 +160,7 @@ static motus_status read_head(const segments *s, const char *name, FILE *in, boo
     const bool good = !*whole || s->same(s->head, theirs);
     free(theirs);
     if (good) return MOTUS_OK;
-    return complain(err, MOTUS_STATE, "give another name to the table of events, or begin anew: --force",
+    return complain(err, MOTUS_STATE, "give the table of events another name, or start again with --force",
                     "%s has events of another sweep", name);
 }
 
@@ -277,7 +277,7 @@ static motus_status look(const segments *s, motus_error *err)
     for (uint64_t b = 0; b < s->blocks; b++) missing += !segments_have(s, b);
     if (!missing) return MOTUS_OK;
     return complain(err, MOTUS_FILE, "--resume computes them again",
-                    "the events of %" PRIu64 " of %" PRIu64 " blocks were written and are not in %s", missing,
+                    "the events of %" PRIu64 " of %" PRIu64 " blocks were written, but are not in %s", missing,
                     s->blocks, s->folder);
 }
 

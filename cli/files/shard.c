@@ -30,8 +30,8 @@ static motus_status of_slurm(shard *s, motus_error *err)
     *s = (shard){value[0], value[1], SHARD_BLOCK};
     if (value[2] == 1 && value[3] == value[1] && s->number >= 1 && s->number <= s->count) return MOTUS_OK;
     fail(err, MOTUS_ARGUMENT,
-         "--shard slurm: this array has the tasks %" PRIu64 " to %" PRIu64 ", %" PRIu64 " of them, not 1 to N",
-         value[2], value[3], value[1]);
+         "--shard slurm: this array has tasks %" PRIu64 " to %" PRIu64 " (%" PRIu64 " of them), not 1 to N", value[2],
+         value[3], value[1]);
     hint(err, "submit all as --array=1-N; to compute one shard again, name it: --shard %" PRIu64 "/N", s->number);
     return MOTUS_ARGUMENT;
 }
@@ -62,7 +62,7 @@ motus_status shard_read(shard *s, const char *text, motus_error *err)
         const size_t length = shard_parse(s, text);
         if (length == 0 || text[length] || s->block != SHARD_BLOCK) {
             status = complain(err, MOTUS_ARGUMENT, "--shard 3/100 is the third of a hundred: from 1/100 to 100/100",
-                              "--shard %s: this is no shard", text);
+                              "--shard %s: this is not a shard", text);
         }
     }
     if (!status && s->count > SHARD_MOST) {

@@ -62,16 +62,15 @@ motus_status target_check(const options *o, const char *path, motus_error *err)
     if (o->operand && !output && file_same(path, o->operand))
         return fail(err, MOTUS_ARGUMENT, "%s is read and would be overwritten", o->operand);
     if (o->operand && target_archive(path) && target_replaces(path, o->operand))
-        return fail(err, MOTUS_ARGUMENT, "%s is read and would be overwritten: %s is made by way of it", o->operand,
-                    path);
+        return fail(err, MOTUS_ARGUMENT, "%s is read and would be overwritten while %s is made", o->operand, path);
     struct stat about;
     if (output || o->plan || stat(path, &about) != 0) return MOTUS_OK; /* a plan writes no file */
     if (S_ISDIR(about.st_mode)) return fail(err, MOTUS_FILE, "cannot write %s: it is a folder", path);
     if (!S_ISREG(about.st_mode) && (o->resume || target_npy(path) || target_archive(path)))
         return fail(err, MOTUS_ARGUMENT, "%s is not a regular file: %s", path,
                     o->resume          ? "there is nothing to continue"
-                    : target_npy(path) ? "a .npy needs one"
-                                       : "an archive needs one");
+                    : target_npy(path) ? "a .npy must be one"
+                                       : "an archive must be one");
     if (S_ISREG(about.st_mode) && about.st_size > 0 && !o->resume && !o->force) {
         fail(err, MOTUS_ARGUMENT, "%s exists", path);
         hint(err, "%s--force replaces it", o->verb == VERB_SWEEP ? "--resume continues it, " : "");

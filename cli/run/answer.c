@@ -66,9 +66,9 @@ void answer_print(const summary *s, FILE *out)
     else
         fprintf(out, "± is the error of %s %s: how far the exact motion of the equation may be\n",
                 adaptive ? "tolerance" : "h =", step);
-    fprintf(out, "telling the errors took %s × the work of the run", isnan(e->work) ? "0" : work);
+    fprintf(out, "finding the errors took %s × the work of the run", isnan(e->work) ? "0" : work);
     if (e->kinked)
-        fprintf(out, "; steps lead across kinks of the force, so the errors are rough%s",
+        fprintf(out, "; steps cross kinks of the force, so the errors are rough%s",
                 adaptive || s->options->switches ? "" : ": --switches locate gives sharp ones");
     if (isnan(e->significant_until) && e->growth > FAR_APART && s->options->error == NULL) {
         text_brief(e->growth, 1, growth);
@@ -77,7 +77,7 @@ void answer_print(const summary *s, FILE *out)
     if (e->looked < 1) {
         const double percent = 100 * e->looked;
         text_brief(percent < 10 ? percent : floor(percent), 2, looked);
-        fprintf(out, "; what the force does within a step was looked at in %s %% of the steps", looked);
+        fprintf(out, "; the force within a step was examined in %s %% of the steps", looked);
     }
     putc('\n', out);
 }

@@ -143,7 +143,7 @@ static motus_status npy_head(part *p, FILE *in, motus_error *err)
     }
     const char *its = strstr(p->head, "\", \"trajectories\": ");
     if (strlen(p->head) != length || !its || !take_shard(p, its, "\"trajectories\": ", "\"shard\": \"", "\", "))
-        return no_shard(p, "is not a shard, by the .json beside it", err);
+        return no_shard(p, "is not a shard, according to the .json beside it", err);
     return rows == shard_rows(&p->shard, p->total) ? MOTUS_OK : part_unfinished(p, err);
 }
 
@@ -180,7 +180,7 @@ static motus_status archive_head(part *p, motus_error *err)
              shard_parse(&p->shard, share) != strlen(share) ||
              (p->shard.block = motus_archive_block_rows(a)) > SHARD_BLOCK || p->shard.count < 2 ||
              p->shard.count > SHARD_MOST || !fits(a, p))
-        status = no_shard(p, "is not a shard of a sweep, by what its head says", err);
+        status = no_shard(p, "is not a shard of a sweep, according to its notes", err);
     p->head = status ? NULL : common(a);
     if (!status && !p->head) status = complain_memory(err);
     p->its = p->head;
@@ -215,7 +215,7 @@ motus_status part_open(part *p, const char *path, motus_error *err)
 {
     *p = (part){.path = path};
     struct stat about; /* a pipe could not be opened again for each block */
-    if (stat(path, &about) == 0 && !S_ISREG(about.st_mode)) return no_shard(p, "is no regular file", err);
+    if (stat(path, &about) == 0 && !S_ISREG(about.st_mode)) return no_shard(p, "is not a regular file", err);
     FILE *in = open_at(p);
     if (!in) return cannot_read(path, err);
     motus_status status = MOTUS_OK;
@@ -300,8 +300,7 @@ static motus_status copy_numbers(part *p, FILE *in, uint64_t first, uint64_t cou
 
 static motus_status not_as_written(const part *p, motus_error *err)
 {
-    fail(err, MOTUS_STATE, "%s is damaged: what is behind its byte %" PRIu64 " is not what was written", p->path,
-         p->checked);
+    fail(err, MOTUS_STATE, "%s is damaged: after byte %" PRIu64 ", it is not as it was written", p->path, p->checked);
     hint(err, p->kind == PART_EVENTS ? "compute this shard again: its command with --force"
                                      : "its command with --resume computes that again");
     return MOTUS_STATE;
@@ -331,5 +330,5 @@ motus_status part_end(part *p, motus_error *err)
     if (ends) return p->broken ? not_as_written(p, err) : MOTUS_OK;
     if (p->kind == PART_EVENTS && (got == 0 || rest[0] == '#')) return part_unfinished(p, err);
     return complain(err, MOTUS_STATE, "compute this shard again: its command with --force",
-                    "%s is damaged: there is more behind its last trajectory", p->path);
+                    "%s is damaged: it continues after its last trajectory", p->path);
 }

@@ -189,10 +189,9 @@ static motus_status compare_versions(const sweep_file *f, const char *version, m
         return archived_by_other(f->path, version, why, err);
     }
     if (compared == 0)
-        return archived_by_other(f->path, version, "there is no block by which to see whether the bits are the same",
-                                 err);
+        return archived_by_other(f->path, version, "it has no block that shows whether the bits are the same", err);
     if (!f->sweep->options->quiet)
-        complain_note("%s was begun by motus %.40s; some rows of it, computed again, have the same bits", f->path,
+        complain_note("%s was begun by motus %.40s; some of its rows, computed again, have the same bits", f->path,
                       version);
     return MOTUS_OK;
 }
@@ -243,7 +242,7 @@ static motus_status find_blocks(sweep_file *f, bool found, motus_error *err)
     }
     if (status || a->missing_count == 0 || !motus_archive_compressed(a->file)) return status;
     return complain(err, MOTUS_STATE, "--force computes all of it again",
-                    "%s is compressed, and %llu of its blocks are damaged, or their events are gone", f->path,
+                    "%s is compressed, and %llu of its blocks are damaged, or their events are missing", f->path,
                     (unsigned long long)a->missing_count);
 }
 
@@ -441,6 +440,6 @@ motus_status sweep_archive_look(sweep_file *f, motus_error *err)
     return complain(
         err, MOTUS_FILE,
         "the file system loses what several machines write into one file: use shards; --resume computes the blocks",
-        "%llu of %llu blocks were written and are not in %s", (unsigned long long)lost, (unsigned long long)a->blocks,
+        "%llu of %llu blocks were written, but are not in %s", (unsigned long long)lost, (unsigned long long)a->blocks,
         f->path);
 }

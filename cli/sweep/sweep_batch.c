@@ -92,7 +92,7 @@ static motus_status refuse(const sweep *s, uint64_t first, size_t count, double 
     decimal(judged[SWEEP_TOLERANCE][i], tolerance);
     text_brief(reached, 2, bar);
     if (isnan(reached))
-        fail(err, MOTUS_ACCURACY, "no accuracy can be promised: there is no companion of %s", who);
+        fail(err, MOTUS_ACCURACY, "no accuracy can be promised: %s has no companion", who);
     else if (isinf(reached))
         fail(err, MOTUS_ACCURACY,
              "the accuracy %s is not reached: no digit of %s is known to be significant at its end", wanted, who);

@@ -50,7 +50,7 @@ motus_status sweep_events_check(const options *o, motus_error *err)
                         "--resume continues the table of events too, and needs a file");
     if (sweep_events_in_segments(o) && !o->plan && !o->resume && !o->force && segments_there(o->events))
         return complain(err, MOTUS_ARGUMENT, "--resume continues it, --force replaces it",
-                        "%s.segments is there: events of a sweep that was interrupted", o->events);
+                        "%s.segments has the events of a sweep that was interrupted", o->events);
     return target_check(o, o->events, err);
 }
 
@@ -162,7 +162,7 @@ static motus_status make_head(sweep_events *f, motus_error *err)
 
 static motus_status another(const sweep_events *f, motus_error *err)
 {
-    return complain(err, MOTUS_STATE, "give the name of its table, or begin anew: --force",
+    return complain(err, MOTUS_STATE, "name the table of this sweep, or start again with --force",
                     "%s is not the table of events of this sweep", f->path);
 }
 
@@ -176,15 +176,15 @@ static bool same_head(const char *ours, const char *theirs)
 static motus_status shortened(const sweep_events *f, uint64_t rows, motus_error *err)
 {
     return complain(
-        err, MOTUS_STATE, "put back the file as the sweep left it, or compute both anew: --force in place of --resume",
+        err, MOTUS_STATE, "restore the file as the sweep left it, or compute both again: --force instead of --resume",
         "%s does not have all events of the %" PRIu64 " trajectories in %s", f->path, rows, f->sweep->options->output);
 }
 
 static motus_status damaged(const sweep_events *f, motus_error *err)
 {
-    return complain(
-        err, MOTUS_STATE, "put back the file as the sweep left it, or compute both anew: --force in place of --resume",
-        "%s is damaged: what is behind its byte %" PRIu64 " is not what was written", f->path, f->checks.end);
+    return complain(err, MOTUS_STATE,
+                    "restore the file as the sweep left it, or compute both again: --force instead of --resume",
+                    "%s is damaged: after byte %" PRIu64 ", it is not as it was written", f->path, f->checks.end);
 }
 
 /* Reads what follows the head, and sets f->bytes behind the complete events of the first `rows` trajectories. All of

@@ -116,9 +116,8 @@ static motus_status go_on(sweep_file *f, uint64_t end, motus_error *err)
 {
     motus_status status = sweep_resume(f, end, err);
     if (!status && f->checks.broken && !f->sweep->options->quiet)
-        complain_note(
-            "%s is damaged: only its first %llu rows are those that were written; the others are computed again",
-            f->path, (unsigned long long)f->rows);
+        complain_note("%s is damaged: only its first %llu rows are as they were written; the others are computed again",
+                      f->path, (unsigned long long)f->rows);
     if (status || f->rows == 0) return status ? status : put_head(f, err);
     f->found = f->rows;
     status = checks_go_on(&f->checks, f->descriptor, f->bytes, err);

@@ -271,7 +271,7 @@ static void report(const plan *p)
     putchar('\n');
     if (p->ended > 0) printf("           %.3g %% of them stop before their end\n", 100 * p->ended);
     put_ranks(p);
-    printf("\na rank has %d thread%s here; what the disk takes is not in these times\n", now.threads,
+    printf("\na rank has %d thread%s here; the times do not include the disk\n", now.threads,
            now.threads == 1 ? "" : "s");
 }
 
@@ -288,7 +288,8 @@ static motus_status open_text(plan *p, sweep *of, options *o, motus_error *err)
 
 motus_status sweep_plan(const sweep *s, stop_progress *progress, motus_error *err)
 {
-    if (s->rows == 0) return fail(err, MOTUS_ARGUMENT, "this shard has no trajectories: there are fewer blocks");
+    if (s->rows == 0)
+        return fail(err, MOTUS_ARGUMENT, "this shard has no trajectories: there are fewer blocks than shards");
     plan *p = calloc(1, sizeof *p);
     sweep of;
     options o;

@@ -174,7 +174,7 @@ static motus_status npy_beside(const sweep_file *f, motus_error *err)
     if (!path) return complain_memory(err);
     size_t length;
     motus_status status = file_read(path, FILE_STATE_MAX, &text, &length, err);
-    if (status) hint(err, "it identifies the sweep of %s; --force begins anew", f->path);
+    if (status) hint(err, "it identifies the sweep of %s; --force starts again", f->path);
     free(path);
     const bool whole = shard_whole(&f->sweep->shard);
     snprintf(key, sizeof key, "\"fingerprint\": \"%s\", \"%s%s\"", f->sweep->fingerprint,

@@ -22,9 +22,8 @@ motus_status sweep_section_check(const options *o, motus_error *err)
         return complain(err, MOTUS_ARGUMENT, "add --section \"x = 0 rising\"",
                         "--plot of a sweep draws the points of a section");
     if (o->resume)
-        return complain(
-            err, MOTUS_ARGUMENT, "write them too, --events points.csv, or leave out --resume",
-            "--resume and --plot exclude each other: the points of the rows that the file has are not in it");
+        return complain(err, MOTUS_ARGUMENT, "write the points with --events points.csv, or leave out --resume",
+                        "--resume and --plot exclude each other: the file has rows, but not their points");
     const char *const others[] = {o->output, o->events, o->operand};
     for (size_t k = 0; k < sizeof others / sizeof *others; k++)
         if (others[k] && file_same(others[k], o->plot))
@@ -45,7 +44,7 @@ static motus_status varied_axis(sweep_section *p, const char *text, motus_error 
         p->varied[a] = p->axis[a] < s->grid.count;
     }
     if (p->varied[0] && p->varied[1])
-        status = fail(err, MOTUS_ARGUMENT, "--plot-of %s: both numbers are varied, and neither is of the motion", text);
+        status = fail(err, MOTUS_ARGUMENT, "--plot-of %s: both numbers are varied; one must be of the motion", text);
     if (!status && (p->varied[0] || p->varied[1]))
         status = figure_column(&s->model, names.items[p->varied[0]], &p->of[p->varied[0]], err);
     words_free(&names);
@@ -137,7 +136,7 @@ motus_status sweep_section_draw(sweep_section *p, motus_error *err)
     if (!s->options->plot) return MOTUS_OK;
     if (p->count == 0)
         return complain(err, MOTUS_ARGUMENT, "give a later end, --until, or a smaller --skip",
-                        "--section %s: none of its points is left to draw", s->options->section);
+                        "--section %s: there are no points left to draw", s->options->section);
     motus_status status = name_of(p, 0, name[0]);
     if (!status) status = name_of(p, 1, name[1]);
     if (!status) {

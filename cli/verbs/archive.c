@@ -191,9 +191,8 @@ static motus_status extract(const contents *c, stop_progress *progress, motus_er
     const char *name = c->options->output;
     const wanted what = by_name(c);
     if (what == NOTHING) {
-        fail(err, MOTUS_ARGUMENT, "-o %s: an archive gives its rows or its model%s", name,
-             c->run ? ", that of a run its state" : "");
-        hint(err, "-o rows.csv, or -o model.motus%s", c->run ? ", or -o end.state" : "");
+        fail(err, MOTUS_ARGUMENT, "-o %s: the name must end in .csv or .motus%s", name, c->run ? " or .state" : "");
+        hint(err, "-o rows.csv writes the rows, -o model.motus the model%s", c->run ? ", -o end.state the state" : "");
         return MOTUS_ARGUMENT;
     }
     file_out out = {0};
@@ -252,7 +251,7 @@ static void report(const contents *c)
     printf("  %-13s%" PRIu64 ", in %" PRIu64 " %sblock%s: ", c->run ? "rows" : "trajectories",
            motus_archive_rows(c->file), c->blocks, motus_archive_compressed(c->file) ? "compressed " : "",
            c->blocks == 1 ? "" : "s");
-    if (!c->missing) puts("all there, with the hashes that were written");
+    if (!c->missing) puts("all there, and their hashes match");
     if (c->missing > c->damaged) printf("%" PRIu64 " missing%s", c->missing - c->damaged, c->damaged ? " and " : "");
     if (c->damaged) printf("%" PRIu64 " damaged", c->damaged);
     if (c->missing) printf(", the first of them number %" PRIu64 "\n", c->first_missing + 1);
@@ -270,10 +269,10 @@ static void report(const contents *c)
     }
     putchar('\n');
     if (c->run && !archive_run_goes_on(c->file, c->missing, c->first_missing))
-        puts("\nmotus run cannot go on with this file: it has no state with all the rows before it; its command with "
-             "--force makes it anew");
+        puts("\nmotus run cannot continue this file: it has no state with all the rows before it; its command with "
+             "--force computes it again");
     else if (c->missing && c->run)
-        puts("\nmotus run goes on with this file");
+        puts("\nmotus run continues this file");
     else if (c->missing > c->damaged)
         puts("\nthe command with -o and --resume computes what is missing");
 }
@@ -283,16 +282,17 @@ static void report(const contents *c)
 static motus_status judge(const contents *c, motus_error *err)
 {
     if (c->run || !c->damaged) return MOTUS_OK;
-    fail(err, MOTUS_STATE, "%s is damaged: %" PRIu64 " of its %" PRIu64 " blocks %s not have the hash that was written",
-         c->options->operand, c->damaged, c->blocks, c->damaged == 1 ? "does" : "do");
-    hint(err, "take a copy; or compute what is damaged: %.400s -o %s %s", said(c, "command"), c->options->operand,
-         again(c));
+    fail(err, MOTUS_STATE, "%s is damaged: %" PRIu64 " of its %" PRIu64 " blocks %s not match %s hash",
+         c->options->operand, c->damaged, c->blocks, c->damaged == 1 ? "does" : "do",
+         c->damaged == 1 ? "its" : "their");
+    hint(err, "use a copy of the file, or compute the damaged blocks: %.400s -o %s %s", said(c, "command"),
+         c->options->operand, again(c));
     return MOTUS_STATE;
 }
 
 static motus_status check(const options *o, motus_error *err)
 {
-    if (!o->operand) return complain(err, MOTUS_ARGUMENT, "motus archive swings.h5", "the archive is missing");
+    if (!o->operand) return complain(err, MOTUS_ARGUMENT, "motus archive swings.h5", "motus archive needs an archive");
     double part;
     motus_status status = o->verify ? archive_verify_part(o->verify, &part, err) : MOTUS_OK;
     if (status) return status;

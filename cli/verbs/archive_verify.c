@@ -47,7 +47,7 @@ static motus_status read_command(origin *g, const char *command, const options *
 
 static motus_status other_sweep(const char *version, motus_error *err)
 {
-    fail(err, MOTUS_STATE, "the command in the archive does not make its fingerprint");
+    fail(err, MOTUS_STATE, "the archive's command has another fingerprint than the archive");
     hint(err,
          "a file of values (--vary F=@FILE) may have changed, or the archive was changed by hand; motus %.40s "
          "made it",
@@ -101,7 +101,7 @@ motus_status archive_verify_part(const char *text, double *part, motus_error *er
     if (!ends || typed_constant(number, "", &percent, &none) || !(percent > 0) || percent > 100)
         return complain(err, MOTUS_ARGUMENT,
                         "--verify 1% computes a hundredth of its blocks again, --verify all every one",
-                        "--verify %.80s: this is no part of an archive", text);
+                        "--verify %.80s: this is not a part of an archive", text);
     *part = percent / 100;
     return MOTUS_OK;
 }
@@ -176,10 +176,10 @@ motus_status archive_verify_run(motus_archive *a, const options *o, uint64_t fir
 motus_status archive_verify_failed(const archive_verified *v, const options *o, bool run, motus_error *err)
 {
     if (run)
-        fail(err, MOTUS_FILE, "%s is not what is computed; %s", o->operand, v->where);
+        fail(err, MOTUS_FILE, "%s differs from what is computed; %s", o->operand, v->where);
     else
-        fail(err, MOTUS_FILE, "%s: %" PRIu64 " of %" PRIu64 " blocks are not what is computed; %s", o->operand,
+        fail(err, MOTUS_FILE, "%s: %" PRIu64 " of %" PRIu64 " blocks differ from what is computed; %s", o->operand,
              v->differ, v->computed, v->where);
-    hint(err, "its command with --force makes it anew");
+    hint(err, "its command with --force computes it again");
     return MOTUS_FILE;
 }

@@ -82,7 +82,7 @@ static void print_switches(const load *m, const char *strong, const char *plain)
         if (k == 0) printf("\n%sswitching surfaces%s\n", strong, plain);
         if (s.count > 1) snprintf(number, sizeof number, " (%zu of them)", s.count);
         snprintf(line, sizeof line, "%.400s, where %.400s%s changes: %s%s%s", s.surface, s.operation, number,
-                 s.located ? "adaptive methods end their steps there" : "steps lead across, since ", s.not_located,
+                 s.located ? "adaptive methods end their steps there" : "steps cross it, since ", s.not_located,
                  s.located ? sliding[s.sliding] : "");
         text_wrap(stdout, line, 2, 100);
     }

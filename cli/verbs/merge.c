@@ -31,9 +31,9 @@ static motus_status foreign(const part *a, const part *b, motus_error *err)
     } else if (a->shard.count != b->shard.count || a->shard.block != b->shard.block) {
         fail(err, MOTUS_STATE, "%s is shard %s, but %s is shard %s", a->path, shard_title(&a->shard, one), b->path,
              shard_title(&b->shard, other));
-        hint(err, "merge the shards of one division");
+        hint(err, "merge shards K/N with one N");
     } else {
-        fail(err, MOTUS_STATE, "%s and %s are of different sweeps", a->path, b->path);
+        fail(err, MOTUS_STATE, "%s and %s are from different sweeps", a->path, b->path);
         hint(err, "the fingerprints in their heads differ, or their columns do");
     }
     return MOTUS_STATE;
@@ -102,7 +102,7 @@ static motus_status check_name(const merge *m, motus_error *err)
     }
     if (target_npy(name) == (kind == PART_NPY) && target_archive(name) == (kind == PART_ARCHIVE)) return MOTUS_OK;
     fail(err, MOTUS_ARGUMENT, "-o %s: the shards are %s", name, kinds[kind]);
-    hint(err, "give the merged file a name as all.%s", ends[kind]);
+    hint(err, "give the merged file a name such as all.%s", ends[kind]);
     return MOTUS_ARGUMENT;
 }
 
@@ -199,8 +199,8 @@ static void note_unchecked(const merge *m)
         if (!count++) first = &m->parts[k];
     }
     if (count && !m->options->quiet)
-        complain_note("%s.check is not there%s: whether these rows are those that were written was not checked",
-                      first->path, count > 1 ? ", nor are others" : "");
+        complain_note("%s.check is missing%s: the rows could not be checked", first->path,
+                      count > 1 ? ", as are others" : "");
 }
 
 motus_status merge_verb(const options *o, motus_error *err)

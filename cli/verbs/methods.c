@@ -59,17 +59,17 @@ static motus_status print_catalogue(const options *o, motus_error *err)
         table_cell(t, tell_forces(m->forces));
         table_cell(t, m->symplectic ? "yes" : "no");
         table_cell(t, m->reversible ? "yes" : "no");
-        table_cell(t, m->adaptive ? "adaptive" : "of one size");
+        table_cell(t, m->adaptive ? "adaptive" : "fixed");
         table_cell(t, limit);
         table_cell(t, m->cite ? m->cite : "");
     }
     bool good = o->markdown ? table_markdown(t, stdout) : table_print(t, stdout, 0, complain_colours(1));
     table_destroy(t);
     if (good && !o->markdown)
-        puts("\nbetween: the order between steps. forces: what the force may depend on. symplectic: where the force is "
+        puts("\nbetween: the order between steps. forces: what the force may depend on. symplectic: if the force is "
              "a gradient. limit: largest stable\n"
-             "h ω for x'' = -ω² x. motus check MODEL tells what each method preserves of a model.\n"
-             "motus methods NAME shows the card of one.");
+             "h ω for x'' = -ω² x. motus check MODEL shows what each method preserves in a model.\n"
+             "motus methods NAME shows the card of a method.");
     return good ? MOTUS_OK : complain_memory(err);
 }
 
@@ -95,7 +95,7 @@ static void print_card(const motus_method *m)
              "%s\nreversible: %s\n"
              "largest stable h ω: %s",
              between, m->stages, m->evaluations > 0 ? evaluations : "as many as the solver needs",
-             tell_forces(m->forces), m->symplectic ? "yes, where the force is a gradient" : "no",
+             tell_forces(m->forces), m->symplectic ? "yes, if the force is a gradient" : "no",
              m->reversible ? "yes" : "no", limit);
     section("properties", properties, strong, plain);
     section("reference", m->cite ? m->cite : "", strong, plain);
@@ -107,10 +107,10 @@ static motus_status print_auto(motus_error *err)
     fputs("auto chooses the method of a run\n\n", stdout);
     text_wrap(
         stdout,
-        "It compares taylor, dop853, dep12 and dep6, as far as they admit the force, and dop853 and dopri5 where the "
-        "force has kinks. Each integrates the first part of the motion, and its operations are counted; the one that "
-        "needs the fewest is taken. No clock is read, so the choice is the same on every machine. motus run says why "
-        "it was made, and motus check MODEL tells beforehand.",
+        "It compares those of taylor, dop853, dep12 and dep6 that admit the force, or dop853 and dopri5 if the force "
+        "has kinks. Each integrates the first part of the motion; the one that needs the fewest operations is chosen. "
+        "No clock is read, so the choice is the same on every machine. motus run prints the choice and its reason, and "
+        "motus check MODEL prints them beforehand.",
         2, 90);
     return file_flush_output(err);
 }

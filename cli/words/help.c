@@ -57,9 +57,9 @@ static const page pages[] = {
      "  motus sweep models/pendulum.motus --vary \"theta(0)=0:pi:9001\" --until 10 --shard 2/2 -o part%K.csv\n"
      "  motus merge part1.csv part2.csv -o swings-all.csv\n"},
     {VERB_ARCHIVE,
-     "Says what an archive has, and whether all of its blocks are there, with the hashes that were written. With -o "
-     "it\n"
-     "writes the rows as CSV, the model, or the state of a run.",
+     "Prints what an archive contains, and whether all of its blocks are there and match their hashes. With -o it "
+     "writes\n"
+     "the rows as CSV, the model, or the state of a run.",
      "  motus archive swings.h5\n"
      "  motus archive swings.h5 -o swings.csv\n"
      "  motus archive swings.h5 -o pendulum.motus\n"
@@ -83,8 +83,8 @@ static const page pages[] = {
      "  motus methods verlet\n"
      "  motus methods --json\n"},
     {VERB_CACHE,
-     "The compiled machine keeps what it compiled under $XDG_CACHE_HOME/motus (else ~/.cache/motus). This removes it;\n"
-     "motus compiles it again when needed.",
+     "The compiled machine keeps compiled models in $XDG_CACHE_HOME/motus (default: ~/.cache/motus). This removes\n"
+     "them; motus compiles a model again when it needs it.",
      "  motus cache --clear\n"},
 };
 

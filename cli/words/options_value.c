@@ -155,7 +155,7 @@ motus_status options_value(options *o, size_t k, const char *value, motus_error 
     if (row->kind != FLAG && row->kind <= CHOICE && !*value)
         return fail(err, MOTUS_ARGUMENT, "%s: its value is empty", row->name);
     if (row->kind == CHOICE && !is_choice(row, value)) {
-        fail(err, MOTUS_ARGUMENT, "%s %s: this is none of its words", row->name, value);
+        fail(err, MOTUS_ARGUMENT, "%s %s: unknown value", row->name, value);
         hint(err, "write one of: %s", row->choices);
         return MOTUS_ARGUMENT;
     }
