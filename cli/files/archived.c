@@ -52,6 +52,12 @@ motus_status archived_another(motus_archive *file, const char *path, const char 
     return MOTUS_STATE;
 }
 
+const char *archived_note(const motus_archive *file, const char *name)
+{
+    const char *text = motus_archive_note_of(file, name);
+    return text ? text : "";
+}
+
 bool archived_says(const motus_archive *file, const char *name, const char *text)
 {
     const char *its = motus_archive_note_of(file, name);

@@ -12,6 +12,8 @@ typedef struct motus_archive motus_archive;
 bool archived_sweep(const motus_archive *);
 /* Returns whether a note of the archive is `text`, or, if `text` is NULL, whether there is no such note. */
 bool archived_says(const motus_archive *, const char *name, const char *text);
+/* Returns a note of the archive, or "" if there is none. */
+const char *archived_note(const motus_archive *, const char *name);
 /* Checks that the rows of a block have the numbers of its trajectories, or of a run's rows. */
 motus_status archived_numbers(motus_archive *, const char *path, uint64_t block, motus_error *);
 /* Makes the error for an archive of another sweep or run (`what`), with the command that made it. */

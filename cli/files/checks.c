@@ -17,25 +17,6 @@ static const char first_line[] = "# motus checks: bytes of the file, and the has
 _Static_assert(CHECKS_PIECE == 16384, "the first line says so");
 enum { HEAD = sizeof first_line - 1, LINE = 20 + 1 + 16 + 1 };
 
-static motus_status cannot(const char *what, const checks *c, int code, motus_error *err)
-{
-    return fail(err, MOTUS_FILE, "cannot %s %s: %s", what, c->path, strerror(code ? code : EIO));
-}
-
-/* Reads `count` bytes from `place`, or fewer at the end of the file. Returns how many, or -1 and errno. */
-static ssize_t read_at(int descriptor, void *out, size_t count, uint64_t place)
-{
-    size_t done = 0;
-    while (done < count) {
-        const ssize_t got = pread(descriptor, (char *)out + done, count - done, (off_t)(place + done));
-        if (got < 0 && errno == EINTR) continue;
-        if (got < 0) return -1;
-        if (got == 0) break;
-        done += (size_t)got;
-    }
-    return (ssize_t)done;
-}
-
 static int write_at(int descriptor, const char *bytes, size_t count, uint64_t place)
 {
     for (size_t done = 0; done < count;) {
@@ -92,7 +73,7 @@ static bool may_replace(const char *path)
     char theirs[HEAD] = "";
     const int in = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     if (in < 0) return true;
-    const ssize_t got = read_at(in, theirs, HEAD, 0);
+    const ssize_t got = file_read_at(in, theirs, HEAD, 0);
     close(in);
     return got == 0 || (got > 0 && memcmp(theirs, first_line, (size_t)got) == 0);
 }
@@ -108,7 +89,7 @@ static motus_status name_of(checks *c, const char *file, uint64_t from, motus_er
 static motus_status reopen(checks *c, motus_error *err)
 {
     c->descriptor = open(c->path, O_RDWR | O_CLOEXEC);
-    return c->descriptor < 0 ? cannot("write", c, errno, err) : MOTUS_OK;
+    return c->descriptor < 0 ? file_cannot("write", c->path, errno, err) : MOTUS_OK;
 }
 
 motus_status checks_begin(checks *c, const char *file, uint64_t from, bool at_once, motus_error *err)
@@ -121,7 +102,7 @@ motus_status checks_begin(checks *c, const char *file, uint64_t from, bool at_on
     status = file_create(&c->out, c->path, err);
     if (!status) status = file_text(&c->out, first_line, err);
     if (!status && at_once) {
-        if (fflush(c->out.stream) != 0) return cannot("write", c, errno, err);
+        if (fflush(c->out.stream) != 0) return file_cannot("write", c->path, errno, err);
         c->descriptor = fileno(c->out.stream);
         return MOTUS_OK;
     }
@@ -149,7 +130,7 @@ motus_status checks_mark(checks *c, motus_error *err)
 {
     if (!c->path) return MOTUS_OK;
     if (c->end > c->said) put_line(c);
-    return c->code ? cannot("write", c, c->code, err) : MOTUS_OK;
+    return c->code ? file_cannot("write", c->path, c->code, err) : MOTUS_OK;
 }
 
 bool checks_sync(const checks *c) { return !c->path || disk_sync(c->descriptor); }
@@ -169,8 +150,8 @@ static motus_status settle(checks *c, motus_error *err)
     for (uint64_t k = 0; !status && k < c->lines; k++) {
         char line[LINE];
         uint64_t end, hash;
-        if (read_at(c->descriptor, line, LINE, HEAD + k * LINE) != LINE || !read_line(line, &end, &hash))
-            return cannot("read", c, errno, err);
+        if (file_read_at(c->descriptor, line, LINE, HEAD + k * LINE) != LINE || !read_line(line, &end, &hash))
+            return file_cannot("read", c->path, errno, err);
         if (end % CHECKS_PIECE == 0 || end == c->end) status = file_write(&c->out, line, LINE, err);
     }
     if (!status) status = file_finish(&c->out, err);
@@ -183,7 +164,7 @@ motus_status checks_finish(checks *c, motus_error *err)
     motus_status status = checks_mark(c, err);
     if (status) return status;
     if (!is_settled(c)) return settle(c, err);
-    if (!c->out.stream) return checks_sync(c) ? MOTUS_OK : cannot("write", c, errno, err);
+    if (!c->out.stream) return checks_sync(c) ? MOTUS_OK : file_cannot("write", c->path, errno, err);
     c->descriptor = -1; /* file_finish() closes it */
     status = file_finish(&c->out, err);
     return status ? status : file_keep(&c->out, err);
@@ -197,7 +178,7 @@ static bool follows(checks *c, int descriptor, uint64_t end, uint64_t hash)
     const uint64_t most = piece_of(c->end) + CHECKS_PIECE, before = c->end;
     if (end <= before || end > most) return false;
     const size_t count = (size_t)(end - before);
-    if (read_at(descriptor, c->piece + before % CHECKS_PIECE, count, before) != (ssize_t)count) return false;
+    if (file_read_at(descriptor, c->piece + before % CHECKS_PIECE, count, before) != (ssize_t)count) return false;
     c->end = end;
     if (hash_of(c) == hash) return true;
     c->end = before;
@@ -210,7 +191,7 @@ motus_status checks_find(checks *c, const char *file, int descriptor, uint64_t f
     motus_status status = name_of(c, file, from, err);
     FILE *in = status ? NULL : fopen(c->path, "rbe");
     c->missing = !status && !in && errno == ENOENT;
-    if (!in) return status || c->missing ? status : cannot("read", c, errno, err);
+    if (!in) return status || c->missing ? status : file_cannot("read", c->path, errno, err);
     const size_t got = fread(line, 1, HEAD, in);
     c->broken = memcmp(line, first_line, got) != 0;
     for (uint64_t end, hash; !c->broken && fread(line, 1, LINE, in) == LINE; c->lines++) {
@@ -218,7 +199,7 @@ motus_status checks_find(checks *c, const char *file, int descriptor, uint64_t f
         c->broken = !follows(c, descriptor, end, hash);
         if (c->broken) break;
     }
-    if (ferror(in)) status = cannot("read", c, errno, err);
+    if (ferror(in)) status = file_cannot("read", c->path, errno, err);
     fclose(in);
     return status;
 }
@@ -229,9 +210,9 @@ motus_status checks_go_on(checks *c, int descriptor, uint64_t end, motus_error *
     uint64_t hash;
     motus_status status = reopen(c, err);
     while (!status && c->lines > 0) {
-        if (read_at(c->descriptor, line, LINE, HEAD + (c->lines - 1) * LINE) != LINE ||
+        if (file_read_at(c->descriptor, line, LINE, HEAD + (c->lines - 1) * LINE) != LINE ||
             !read_line(line, &c->said, &hash))
-            status = cannot("read", c, errno, err);
+            status = file_cannot("read", c->path, errno, err);
         if (status || c->said <= end) break;
         c->lines--;
     }
@@ -239,8 +220,9 @@ motus_status checks_go_on(checks *c, int descriptor, uint64_t end, motus_error *
     if (c->lines == 0) c->said = c->from;
     const uint64_t first = piece_of(end) > c->from ? piece_of(end) : c->from;
     const size_t count = (size_t)(end - first);
-    if (ftruncate(c->descriptor, (off_t)(HEAD + c->lines * LINE)) != 0) return cannot("write", c, errno, err);
-    if (read_at(descriptor, c->piece + first % CHECKS_PIECE, count, first) != (ssize_t)count)
+    if (ftruncate(c->descriptor, (off_t)(HEAD + c->lines * LINE)) != 0)
+        return file_cannot("write", c->path, errno, err);
+    if (file_read_at(descriptor, c->piece + first % CHECKS_PIECE, count, first) != (ssize_t)count)
         return fail(err, MOTUS_FILE, "cannot read the table that belongs to %s: %s", c->path, strerror(errno));
     c->end = end;
     return checks_mark(c, err);

@@ -80,20 +80,19 @@ static motus_status put(file_out *f, const options *o, const option *row, motus_
 
 motus_status command_text(const options *o, char **text, motus_error *err)
 {
-    char memory[] = "memory";
-    size_t length;
-    *text = NULL;
-    file_out f = {.stream = open_memstream(text, &length), .path = memory};
-    if (!f.stream) return complain_memory(err);
-    motus_status status = file_text(&f, "motus ", err);
-    if (!status) status = file_text(&f, options_verb(o->verb), err);
-    if (!status) status = command_word(&f, o->operand, err);
+    file_memory m;
+    motus_status status = file_memory_open(&m, err);
+    if (!status) status = file_text(&m.file, "motus ", err);
+    if (!status) status = file_text(&m.file, options_verb(o->verb), err);
+    if (!status) status = command_word(&m.file, o->operand, err);
     for (size_t k = 0; !status && k < OPTION_COUNT; k++) {
         const option *row = options_row(k);
         if (row->verbs & o->verb && row->setting & (OF_MOTION | OF_ROWS) && options_has(o, row))
-            status = put(&f, o, row, err);
+            status = put(&m.file, o, row, err);
     }
-    return fclose(f.stream) != 0 && !status ? complain_memory(err) : status;
+    status = file_memory_close(&m, status, err);
+    *text = m.text;
+    return status;
 }
 
 void command_mix(uint64_t *hash, const void *bytes, size_t count)

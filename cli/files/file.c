@@ -24,6 +24,17 @@ static const char *called(const char *path, bool reading)
     return strcmp(path, "-") == 0 ? reading ? "standard input" : "standard output" : path;
 }
 
+motus_status file_cannot(const char *what, const char *path, int code, motus_error *err)
+{
+    return fail(err, MOTUS_FILE, "cannot %s %s: %s", what, path, strerror(code ? code : EIO));
+}
+
+motus_status file_cannot_write(const char *path, int code, motus_error *err)
+{
+    if (code == EPIPE && strcmp(path, "-") == 0) stop_reader_gone();
+    return file_cannot("write", called(path, false), code, err);
+}
+
 static motus_status too_long(const char *path, size_t most, motus_error *err)
 {
     return complain(err, MOTUS_LIMIT, "check that this is the file you meant", "%s is longer than %zu bytes",
@@ -122,6 +133,19 @@ motus_status file_read(const char *path, size_t most, char **text, size_t *lengt
     return status;
 }
 
+ssize_t file_read_at(int descriptor, void *out, size_t count, uint64_t place)
+{
+    size_t done = 0;
+    while (done < count) {
+        const ssize_t got = pread(descriptor, (char *)out + done, count - done, (off_t)(place + done));
+        if (got < 0 && errno == EINTR) continue;
+        if (got < 0) return -1;
+        if (got == 0) break;
+        done += (size_t)got;
+    }
+    return (ssize_t)done;
+}
+
 bool file_same(const char *a, const char *b)
 {
     struct stat first, second;
@@ -144,11 +168,7 @@ bool file_program(const char *name, char *path, size_t size)
     return false;
 }
 
-static motus_status cannot_write(file_out *f, motus_error *err)
-{
-    if (f->code == EPIPE && strcmp(f->path, "-") == 0) stop_reader_gone();
-    return fail(err, MOTUS_FILE, "cannot write %s: %s", called(f->path, false), strerror(f->code));
-}
+static motus_status cannot_write(file_out *f, motus_error *err) { return file_cannot_write(f->path, f->code, err); }
 
 /* Opens a file without a name in the folder of f->path. Returns -1 if it cannot: see platform_nameless(). */
 static int open_nameless(file_out *f)
@@ -282,6 +302,21 @@ void file_drop(file_out *f)
     *f = (file_out){0};
 }
 
+motus_status file_memory_open(file_memory *m, motus_error *err)
+{
+    static char name[] = "memory";
+    *m = (file_memory){0};
+    m->file = (file_out){.stream = open_memstream(&m->text, &m->length), .path = name};
+    return m->file.stream ? MOTUS_OK : complain_memory(err);
+}
+
+motus_status file_memory_close(file_memory *m, motus_status status, motus_error *err)
+{
+    if (!m->file.stream) return status;
+    const bool failed = ferror(m->file.stream) != 0;
+    return (fclose(m->file.stream) != 0 || failed) && !status ? complain_memory(err) : status;
+}
+
 motus_status file_beside_make(file_beside *f, const char *name, const char *ending, motus_error *err)
 {
     char place[PLATFORM_PLACE];
@@ -297,7 +332,7 @@ motus_status file_beside_make(file_beside *f, const char *name, const char *endi
 motus_status file_beside_keep(file_beside *f, motus_error *err)
 {
     if (f->descriptor >= 0 ? !disk_name(f->descriptor, f->name) : !disk_replace(f->path, f->name))
-        return fail(err, MOTUS_FILE, "cannot write %s: %s", f->name, strerror(errno));
+        return file_cannot("write", f->name, errno, err);
     if (f->descriptor >= 0) close(f->descriptor);
     f->descriptor = -1;
     free(f->path);
@@ -352,6 +387,5 @@ motus_status file_flush_output(motus_error *err)
     errno = 0;
     if (fflush(stdout) == 0 && !ferror(stdout)) return MOTUS_OK;
     const int code = errno ? errno : before ? before : EIO;
-    if (code == EPIPE) stop_reader_gone();
-    return fail(err, MOTUS_FILE, "cannot write standard output: %s", strerror(code));
+    return file_cannot_write("-", code, err);
 }

@@ -39,11 +39,6 @@ struct segments {
 #define END "# end of block "
 #define FOLDER ".segments"
 
-static motus_status cannot(const char *what, const char *path, motus_error *err)
-{
-    return fail(err, MOTUS_FILE, "cannot %s %s: %s", what, path, strerror(errno ? errno : EIO));
-}
-
 motus_status segments_make(segments **out, const char *table, const char *head,
                            bool (*same)(const char *, const char *), uint64_t blocks, size_t first, motus_error *err)
 {
@@ -101,7 +96,7 @@ bool segments_there(const char *table)
 static motus_status list(segments *s, motus_error *err)
 {
     DIR *folder = opendir(s->folder);
-    if (!folder) return errno == ENOENT ? MOTUS_OK : cannot("read", s->folder, err);
+    if (!folder) return errno == ENOENT ? MOTUS_OK : file_cannot("read", s->folder, errno, err);
     motus_status status = MOTUS_OK;
     errno = 0;
     for (const struct dirent *entry; !status && (entry = readdir(folder));) {
@@ -117,7 +112,7 @@ static motus_status list(segments *s, motus_error *err)
         s->files[s->file_count++] = name;
         errno = 0;
     }
-    if (!status && errno) status = cannot("read", s->folder, err);
+    if (!status && errno) status = file_cannot("read", s->folder, errno, err);
     closedir(folder);
     return status;
 }
@@ -125,13 +120,13 @@ static motus_status list(segments *s, motus_error *err)
 motus_status segments_remove(const segments *s, motus_error *err)
 {
     DIR *folder = opendir(s->folder);
-    if (!folder) return errno == ENOENT ? MOTUS_OK : cannot("remove", s->folder, err);
+    if (!folder) return errno == ENOENT ? MOTUS_OK : file_cannot("remove", s->folder, errno, err);
     bool good = true;
     for (const struct dirent *entry; (entry = readdir(folder));)
         if (is_segment(entry->d_name)) good = unlinkat(dirfd(folder), entry->d_name, 0) == 0 && good;
     closedir(folder);
     if (good && (rmdir(s->folder) == 0 || errno == ENOTEMPTY || errno == EEXIST)) return MOTUS_OK;
-    return cannot("remove", s->folder, err);
+    return file_cannot("remove", s->folder, errno, err);
 }
 
 /* ---- reading ---- */
@@ -168,7 +163,7 @@ static motus_status read_segment(segments *s, size_t number, motus_error *err)
 {
     const char *name = s->files[number];
     FILE *in = fopen(name, "rbe");
-    if (!in) return cannot("read", name, err);
+    if (!in) return file_cannot("read", name, errno, err);
     char *line = NULL;
     size_t room = 0;
     bool whole = false;
@@ -185,7 +180,8 @@ static motus_status read_segment(segments *s, size_t number, motus_error *err)
         begin = at + (uint64_t)got;
         hash = COMMAND_HASH;
     }
-    if (!status && whole && !feof(in)) status = ferror(in) ? cannot("read", name, err) : complain_memory(err);
+    if (!status && whole && !feof(in))
+        status = ferror(in) ? file_cannot("read", name, errno, err) : complain_memory(err);
     free(line);
     fclose(in);
     return status;
@@ -206,22 +202,22 @@ bool segments_have(const segments *s, uint64_t block) { return s->of && s->of[bl
 
 static motus_status open_own(segments *s, motus_error *err)
 {
-    if (mkdir(s->folder, 0777) != 0 && errno != EEXIST) return cannot("make the folder", s->folder, err);
+    if (mkdir(s->folder, 0777) != 0 && errno != EEXIST) return file_cannot("make the folder", s->folder, errno, err);
     for (size_t number = s->first; !s->own; number++) {
         free(s->own_name);
         s->own_name = name_of(s, number);
         if (!s->own_name) return complain_memory(err);
         s->own = fopen(s->own_name, "wbxe"); /* fails if another process has this name */
-        if (!s->own && errno != EEXIST) return cannot("write", s->own_name, err);
+        if (!s->own && errno != EEXIST) return file_cannot("write", s->own_name, errno, err);
     }
-    return fputs(s->head, s->own) < 0 ? cannot("write", s->own_name, err) : MOTUS_OK;
+    return fputs(s->head, s->own) < 0 ? file_cannot("write", s->own_name, errno, err) : MOTUS_OK;
 }
 
 motus_status segments_put(segments *s, const char *rows, size_t length, motus_error *err)
 {
     const motus_status status = s->own ? MOTUS_OK : open_own(s, err);
     if (status) return status;
-    if (fwrite(rows, 1, length, s->own) != length) return cannot("write", s->own_name, err);
+    if (fwrite(rows, 1, length, s->own) != length) return file_cannot("write", s->own_name, errno, err);
     s->length += length;
     command_mix(&s->hash, rows, length);
     return MOTUS_OK;
@@ -233,7 +229,7 @@ motus_status segments_end_block(segments *s, uint64_t block, motus_error *err)
     if (status) return status;
     if (fprintf(s->own, END "%" PRIu64 ", %" PRIu64 " bytes, hash %016" PRIx64 "\n", block, s->length, s->hash) < 0 ||
         fflush(s->own) != 0)
-        return cannot("write", s->own_name, err);
+        return file_cannot("write", s->own_name, errno, err);
     s->length = 0;
     s->hash = COMMAND_HASH;
     return MOTUS_OK;
@@ -248,7 +244,7 @@ motus_status segments_finish(segments *s, motus_error *err)
     const int code = failed ? errno : 0;
     if (fclose(own) == 0 && !code) return MOTUS_OK;
     if (code) errno = code;
-    return cannot("write", s->own_name, err);
+    return file_cannot("write", s->own_name, errno, err);
 }
 
 /* ---- the table ---- */
@@ -259,12 +255,13 @@ static motus_status copy(const segments *s, const stretch *p, file_out *out, mot
     char bytes[AT_ONCE];
     const char *name = s->files[p->segment - 1];
     FILE *in = fopen(name, "rbe");
-    if (!in) return cannot("read", name, err);
-    motus_status status = fseeko(in, (off_t)p->at, SEEK_SET) == 0 ? MOTUS_OK : cannot("read", name, err);
+    if (!in) return file_cannot("read", name, errno, err);
+    motus_status status = fseeko(in, (off_t)p->at, SEEK_SET) == 0 ? MOTUS_OK : file_cannot("read", name, errno, err);
     for (uint64_t left = p->length; !status && left > 0;) {
         const size_t some = left < AT_ONCE ? (size_t)left : AT_ONCE;
         errno = 0;
-        status = fread(bytes, 1, some, in) == some ? file_write(out, bytes, some, err) : cannot("read", name, err);
+        status = fread(bytes, 1, some, in) == some ? file_write(out, bytes, some, err)
+                                                   : file_cannot("read", name, errno, err);
         left -= some;
     }
     fclose(in);

@@ -45,11 +45,6 @@ static char *field(char *s, size_t k)
     }
 }
 
-static motus_status cannot_read(const table_file *f, motus_error *err)
-{
-    return fail(err, MOTUS_FILE, "cannot read %s: %s", f->path, strerror(errno ? errno : EIO));
-}
-
 static motus_status bad(const table_file *f, motus_status status, const char *what, motus_error *err)
 {
     return fail(err, status, "%s:%lld: %s", f->path, f->number, what);
@@ -83,7 +78,7 @@ static motus_status read_line(table_file *f, size_t *length, bool *more, motus_e
     f->line[used] = 0;
     *length = used;
     *more = c != EOF || used > 0;
-    return c == EOF && ferror(f->stream) ? cannot_read(f, err) : MOTUS_OK;
+    return c == EOF && ferror(f->stream) ? file_cannot("read", f->path, errno, err) : MOTUS_OK;
 }
 
 /* Reads the next line that is neither empty nor a comment. *more is false at the end. */

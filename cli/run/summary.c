@@ -18,30 +18,18 @@
 
 enum { SHOWN = 12 }; /* numbers of one name in a table */
 
-static motus_status values_of(const summary *s, size_t first, size_t count, double **out, motus_error *err)
+/* Reads the values of columns [first, first + count), or their errors: NaN if they are not known. */
+static motus_status numbers_of(const summary *s, bool errors, size_t first, size_t count, double **out,
+                               motus_error *err)
 {
     size_t *columns = malloc((count + 1) * sizeof *columns);
     *out = malloc((count + 1) * sizeof **out);
     motus_status status = columns && *out ? MOTUS_OK : complain_memory(err);
     for (size_t k = 0; !status && k < count; k++) columns[k] = first + k;
-    if (!status && count > 0) status = motus_run_values(s->run, columns, count, *out, err);
-    free(columns);
-    if (status) {
-        free(*out);
-        *out = NULL;
-    }
-    return status;
-}
-
-/* Reads the errors of columns [first, first + count). */
-static motus_status errors_of(const summary *s, size_t first, size_t count, double **out, motus_error *err)
-{
-    size_t *columns = calloc(count + 1, sizeof *columns);
-    *out = malloc((count + 1) * sizeof **out);
-    motus_status status = columns && *out ? MOTUS_OK : complain_memory(err);
-    for (size_t k = 0; !status && k < count; k++) columns[k] = first + k;
-    if (!status) status = motus_run_errors(s->run, columns, count, NULL, *out, err);
-    for (size_t k = 0; !status && s->estimate.reason[0] && k < count; k++) (*out)[k] = NAN;
+    if (!status && count > 0)
+        status = errors ? motus_run_errors(s->run, columns, count, NULL, *out, err)
+                        : motus_run_values(s->run, columns, count, *out, err);
+    for (size_t k = 0; !status && errors && s->estimate.reason[0] && k < count; k++) (*out)[k] = NAN;
     free(columns);
     if (status) {
         free(*out);
@@ -81,7 +69,7 @@ static motus_status worst_cell(const summary *s, table *t, size_t first, size_t 
 {
     double *errors = NULL;
     char text[MOTUS_NAME_MAX + 192] = "", bar[DECIMAL_MAX], rms[DECIMAL_MAX];
-    motus_status status = s->errors ? errors_of(s, first, count, &errors, err) : MOTUS_OK;
+    motus_status status = s->errors ? numbers_of(s, true, first, count, &errors, err) : MOTUS_OK;
     size_t worst = 0;
     double squares = 0;
     for (size_t k = 0; errors && k < count; k++) {
@@ -369,7 +357,7 @@ static motus_status errors_json(json *j, const summary *s, motus_error *err)
 {
     const size_t quantities = load_quantity_column(s->model), invariants = load_invariant_column(s->model);
     double *errors = NULL;
-    motus_status status = errors_of(s, 0, invariants + s->model->invariants, &errors, err);
+    motus_status status = numbers_of(s, true, 0, invariants + s->model->invariants, &errors, err);
     if (status) return status;
     json_open(j, "error", '{');
     states_json(j, s, errors + 1);
@@ -446,8 +434,8 @@ motus_status summary_json(const summary *s, motus_error *err)
     const motus_run_statistics done = motus_run_now(s->run);
     double *state = NULL, *quantities = NULL, *events = NULL;
     int64_t rows = 0;
-    motus_status status = values_of(s, 1, s->model->positions + s->model->velocities, &state, err);
-    if (!status) status = values_of(s, load_quantity_column(s->model), s->model->quantities, &quantities, err);
+    motus_status status = numbers_of(s, false, 1, s->model->positions + s->model->velocities, &state, err);
+    if (!status) status = numbers_of(s, false, load_quantity_column(s->model), s->model->quantities, &quantities, err);
     if (!status) status = event_values(s, &rows, &events, err);
     if (!status) {
         json j = text_json(stdout);

@@ -96,17 +96,9 @@ static motus_status print_tables(const studies *s, const void *result, motus_err
         putchar('\n');
         good = table_print(drifts, stdout, 2, colours) && good;
     }
-    bool space = false;
+    bool first = true;
     for (size_t k = 0; k < c->row_count; k++)
-        if (c->rows[k]->note && c->rows[k]->note[0]) {
-            char line[2 * MOTUS_TEXT_MAX + MOTUS_NAME_MAX], note[2 * MOTUS_TEXT_MAX];
-            bool named = strncmp(c->rows[k]->note, c->rows[k]->method, strlen(c->rows[k]->method)) == 0;
-            complain_named(c->rows[k]->note, note, sizeof note);
-            snprintf(line, sizeof line, "%s%s%s", named ? "" : c->rows[k]->method, named ? "" : ": ", note);
-            fputs(space ? "" : "\n", stdout);
-            text_wrap(stdout, line, 2, 100);
-            space = true;
-        }
+        if (c->rows[k]->note && c->rows[k]->note[0]) studies_note(c->rows[k]->method, c->rows[k]->note, &first);
     if (c->remarks && *c->remarks) {
         putchar('\n');
         text_wrap(stdout, c->remarks, 2, 100);

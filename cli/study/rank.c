@@ -86,21 +86,6 @@ static bool print_table(const char *title, table *t, bool colours)
     return good;
 }
 
-static void print_notes(const motus_ranking *r)
-{
-    bool space = false;
-    for (size_t k = 0; k < r->row_count; k++) {
-        const motus_rank_row *row = r->rows[k];
-        if (!row->note[0]) continue;
-        char line[MOTUS_TEXT_MAX + MOTUS_NAME_MAX];
-        const bool named = strncmp(row->note, row->method, strlen(row->method)) == 0;
-        snprintf(line, sizeof line, "%s%s%s", named ? "" : row->method, named ? "" : ": ", row->note);
-        fputs(space ? "" : "\n", stdout);
-        text_wrap(stdout, line, 2, 100);
-        space = true;
-    }
-}
-
 static motus_status print_tables(const studies *s, const void *result, motus_error *err)
 {
     const motus_ranking *r = result;
@@ -114,7 +99,9 @@ static motus_status print_tables(const studies *s, const void *result, motus_err
     if (strcmp(r->machine, "interpreter") != 0) snprintf(title, sizeof title, "Time for it, %s", r->machine);
     good = print_table(title, work_table(r, true), colours) && good;
     good = print_table("The cheapest", cheapest_table(r), colours) && good;
-    print_notes(r);
+    bool first = true;
+    for (size_t k = 0; k < r->row_count; k++)
+        if (r->rows[k]->note[0]) studies_note(r->rows[k]->method, r->rows[k]->note, &first);
     if (r->remarks[0]) {
         putchar('\n');
         text_wrap(stdout, r->remarks, 2, 100);

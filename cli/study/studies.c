@@ -7,7 +7,9 @@
 #include "cli/draw/plot.h"
 #include "cli/words/complain.h"
 #include "cli/words/text.h"
+
 #include <math.h>
+#include <string.h>
 
 motus_status studies_begin(studies *s, const char *what, int needed, const options *o, motus_study_def *def,
                            motus_error *err)
@@ -45,6 +47,17 @@ void studies_title(const studies *s, const char *reference, double error)
         printf("without errors: there is no reference solution");
     }
     putchar('\n');
+}
+
+void studies_note(const char *method, const char *text, bool *first)
+{
+    char line[2 * MOTUS_TEXT_MAX + MOTUS_NAME_MAX], note[2 * MOTUS_TEXT_MAX];
+    const bool named = strncmp(text, method, strlen(method)) == 0;
+    complain_named(text, note, sizeof note);
+    snprintf(line, sizeof line, "%s%s%s", named ? "" : method, named ? "" : ": ", note);
+    fputs(*first ? "\n" : "", stdout);
+    text_wrap(stdout, line, 2, 100);
+    *first = false;
 }
 
 static void print_json(const studies *s, const studies_ways *ways, const void *result)

@@ -21,6 +21,9 @@ motus_status studies_begin(studies *, const char *what, int needed, const option
 /* Prints the first line of the tables: the model and the reference. */
 void studies_title(const studies *, const char *reference, double error);
 
+/* Prints a note on a method, and above the first one an empty line. */
+void studies_note(const char *method, const char *note, bool *first);
+
 typedef struct studies_ways {
     motus_status (*draw)(studies *, const void *result, file_out *, motus_error *);
     void (*tell)(json *, const void *result); /* writes the keys of the result, after those of the model */

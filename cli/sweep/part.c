@@ -19,11 +19,6 @@
 #include <sys/stat.h>
 #include <sys/types.h>
 
-static motus_status cannot_read(const char *path, motus_error *err)
-{
-    return fail(err, MOTUS_FILE, "cannot read %s: %s", path, strerror(errno ? errno : EIO));
-}
-
 static motus_status no_shard(const part *p, const char *what, motus_error *err)
 {
     return complain(err, MOTUS_STATE, "motus merge joins the files that motus sweep --shard K/N writes", "%s %s",
@@ -104,7 +99,7 @@ static motus_status csv_head(part *p, FILE *in, motus_error *err)
     }
     free(line);
     if (status) return status;
-    if (ferror(in)) return cannot_read(p->path, err);
+    if (ferror(in)) return file_cannot("read", p->path, errno, err);
     static const char first[] = "# motus sweep ";
     if (!p->head || strncmp(p->head, first, sizeof first - 1) != 0)
         return no_shard(p, "is not the table of a sweep", err);
@@ -217,7 +212,7 @@ motus_status part_open(part *p, const char *path, motus_error *err)
     struct stat about; /* a pipe could not be opened again for each block */
     if (stat(path, &about) == 0 && !S_ISREG(about.st_mode)) return no_shard(p, "is not a regular file", err);
     FILE *in = open_at(p);
-    if (!in) return cannot_read(path, err);
+    if (!in) return file_cannot("read", path, errno, err);
     motus_status status = MOTUS_OK;
     if (target_busy(path, fileno(in))) {
         status = fail(err, MOTUS_STATE, "%s is being written by another program", path);
@@ -259,7 +254,7 @@ static motus_status copy_lines(part *p, FILE *in, uint64_t first, uint64_t count
     for (uint64_t next = first, behind = first + count; !status && (events || next < behind);) {
         const ssize_t length = getline(&line, &room, in);
         if (length <= 0 || line[length - 1] != '\n') {
-            status = ferror(in) ? cannot_read(p->path, err) : part_unfinished(p, err);
+            status = ferror(in) ? file_cannot("read", p->path, errno, err) : part_unfinished(p, err);
             break;
         }
         if (events) { /* a trajectory has any number of events */
@@ -287,7 +282,7 @@ static motus_status copy_numbers(part *p, FILE *in, uint64_t first, uint64_t cou
     for (uint64_t next = first; !status && next < first + count; next++) {
         double number;
         if (fread(row, 1, p->width, in) != p->width) {
-            status = ferror(in) ? cannot_read(p->path, err) : part_unfinished(p, err);
+            status = ferror(in) ? file_cannot("read", p->path, errno, err) : part_unfinished(p, err);
             break;
         }
         memcpy(&number, row, sizeof number);
@@ -311,7 +306,7 @@ motus_status part_copy(part *p, uint64_t block, file_out *out, motus_error *err)
     const uint64_t first = block * p->shard.block, left = p->total - first;
     const uint64_t count = left < p->shard.block ? left : p->shard.block;
     FILE *in = open_at(p);
-    if (!in) return cannot_read(p->path, err);
+    if (!in) return file_cannot("read", p->path, errno, err);
     const motus_status status = (p->kind == PART_NPY ? copy_numbers : copy_lines)(p, in, first, count, out, err);
     fclose(in);
     if (status || p->at <= p->checked) return status;
@@ -323,7 +318,7 @@ motus_status part_end(part *p, motus_error *err)
     char rest[2 * SWEEP_EVENTS_LAST] = "", end[SWEEP_EVENTS_LAST] = "";
     if (p->kind == PART_EVENTS) snprintf(end, sizeof end, SWEEP_EVENTS_END, shard_rows(&p->shard, p->total));
     FILE *in = open_at(p);
-    if (!in) return cannot_read(p->path, err);
+    if (!in) return file_cannot("read", p->path, errno, err);
     const size_t got = fread(rest, 1, sizeof rest - 1, in);
     fclose(in);
     const bool ends = got == strlen(end) && memcmp(rest, end, got) == 0;

@@ -54,13 +54,6 @@ motus_status sweep_events_check(const options *o, motus_error *err)
     return target_check(o, o->events, err);
 }
 
-static motus_status cannot_write(const sweep_events *f, int code, motus_error *err)
-{
-    const bool output = strcmp(f->path, "-") == 0;
-    if (code == EPIPE && output) stop_reader_gone();
-    return fail(err, MOTUS_FILE, "cannot write %s: %s", output ? "standard output" : f->path, strerror(code));
-}
-
 /* Writes the table and its checks to the disk. Returns an errno, or 0. */
 static int synchronise(const sweep_events *f)
 {
@@ -92,7 +85,7 @@ static motus_status put(sweep_events *f, const char *text, size_t length, size_t
         if (status) return status;
         if (!code) code = synchronise(f);
     }
-    if (code) return cannot_write(f, code, err);
+    if (code) return file_cannot_write(f->path, code, err);
     f->bytes += events;
     return MOTUS_OK;
 }
@@ -113,47 +106,24 @@ static motus_status put_head(sweep_events *f, motus_error *err)
     int code = f->regular && (ftruncate(f->descriptor, 0) != 0 || lseek(f->descriptor, 0, SEEK_SET) < 0) ? errno : 0;
     if (!code) code = target_bytes(f->descriptor, f->head, f->head_length, &written);
     if (!code && f->regular) code = target_bytes(f->descriptor, line, last, &written);
-    if (code) return cannot_write(f, code, err);
+    if (code) return file_cannot_write(f->path, code, err);
     f->bytes = f->head_length;
     checks_add(&f->checks, f->head, f->head_length);
     return MOTUS_OK;
-}
-
-/* ---- text in memory ---- */
-
-typedef struct memory {
-    file_out file;
-    char *text;
-    size_t length;
-} memory;
-
-static motus_status memory_open(memory *m, motus_error *err)
-{
-    static char name[] = "memory";
-    *m = (memory){0};
-    m->file = (file_out){.stream = open_memstream(&m->text, &m->length), .path = name};
-    return m->file.stream ? MOTUS_OK : complain_memory(err);
-}
-
-static motus_status memory_close(memory *m, motus_status status, motus_error *err)
-{
-    if (!m->file.stream) return status;
-    const bool failed = ferror(m->file.stream) != 0;
-    return (fclose(m->file.stream) != 0 || failed) && !status ? complain_memory(err) : status;
 }
 
 static motus_status make_head(sweep_events *f, motus_error *err)
 {
     const sweep *s = f->sweep;
     char line[SWEEP_IDENTITY];
-    memory m;
-    motus_status status = memory_open(&m, err);
+    file_memory m;
+    motus_status status = file_memory_open(&m, err);
     if (!status) status = sweep_head_command(s, &m.file, err);
     if (!status) status = file_text(&m.file, sweep_head_identity(s, "events of ", line), err);
     if (!status) status = file_text(&m.file, "index,", err);
     if (!status)
         status = event_file_names(&m.file, &s->model, s->event_columns, s->event_columns_count, s->errors, err);
-    status = memory_close(&m, status, err);
+    status = file_memory_close(&m, status, err);
     f->head = m.text, f->head_length = m.length;
     return status;
 }
@@ -225,11 +195,11 @@ static motus_status find_end(sweep_events *f, uint64_t rows, FILE *in, motus_err
     char *line = NULL;
     size_t room = 0;
     ssize_t length;
-    memory theirs;
-    motus_status status = memory_open(&theirs, err);
+    file_memory theirs;
+    motus_status status = file_memory_open(&theirs, err);
     for (int k = 0; !status && k < 3 && (length = getline(&line, &room, in)) > 0; k++)
         status = file_write(&theirs.file, line, (size_t)length, err);
-    status = memory_close(&theirs, status, err);
+    status = file_memory_close(&theirs, status, err);
     free(line);
     const bool begun = !status && rows == 0 && strncmp(f->head, theirs.text, theirs.length) == 0;
     f->bytes = begun && theirs.length < f->head_length ? 0 : theirs.length;
@@ -242,7 +212,7 @@ static motus_status find_end(sweep_events *f, uint64_t rows, FILE *in, motus_err
 static motus_status find_table(sweep_events *f, uint64_t rows, motus_error *err)
 {
     FILE *in = fopen(f->path, "re");
-    if (!in) return fail(err, MOTUS_FILE, "cannot read %s: %s", f->path, strerror(errno));
+    if (!in) return file_cannot("read", f->path, errno, err);
     motus_status status = checks_find(&f->checks, f->path, fileno(in), 0, err);
     if (!status) status = find_end(f, rows, in, err);
     fclose(in);
@@ -260,7 +230,7 @@ static motus_status go_on(sweep_events *f, uint64_t rows, motus_error *err)
     const size_t last = last_line(rows, line);
     const int code = write_at(f, f->bytes, line, last);
     if (code || ftruncate(f->descriptor, (off_t)(f->bytes + last)) != 0)
-        return cannot_write(f, code ? code : errno, err);
+        return file_cannot_write(f->path, code ? code : errno, err);
     return MOTUS_OK;
 }
 
@@ -270,7 +240,7 @@ static motus_status begin_segments(sweep_events *f, motus_error *err)
 {
     if (f->sweep->options->resume) return MOTUS_OK;
     const motus_status status = segments_remove(f->segments, err);
-    return status || ftruncate(f->descriptor, 0) == 0 ? status : cannot_write(f, errno, err);
+    return status || ftruncate(f->descriptor, 0) == 0 ? status : file_cannot_write(f->path, errno, err);
 }
 
 /* Locks the table until it is joined, and makes an empty one if there is none. */
@@ -360,12 +330,12 @@ static motus_status put_table(const sweep_events *f, file_out *out, uint64_t fir
 
 /* Writes the events of `count` trajectories, followed by `last`. The caller frees m->text. */
 static motus_status table_text(const sweep_events *f, uint64_t first, size_t from, size_t count, const char *last,
-                               memory *m, motus_error *err)
+                               file_memory *m, motus_error *err)
 {
-    motus_status status = memory_open(m, err);
+    motus_status status = file_memory_open(m, err);
     for (size_t k = from; !status && k < from + count; k++) status = put_table(f, &m->file, first, k, err);
     if (!status) status = file_text(&m->file, last, err);
-    return memory_close(m, status, err);
+    return file_memory_close(m, status, err);
 }
 
 /* Appends events to the segment, block by block. */
@@ -376,7 +346,7 @@ static motus_status to_segments(sweep_events *f, uint64_t first, size_t count, m
         const uint64_t row = first + from;
         const uint64_t block = f->sweep->shard.block;
         const size_t left = (size_t)(block - row % block);
-        memory m;
+        file_memory m;
         some = left < count - from ? left : count - from;
         status = table_text(f, first, from, some, "", &m, err);
         if (!status) status = segments_put(f->segments, m.text, m.length, err);
@@ -392,7 +362,7 @@ motus_status sweep_events_rows(sweep_events *f, uint64_t first, size_t count, mo
     if (!f->path) return MOTUS_OK;
     if (f->complete) return MOTUS_OK;
     if (f->segments) return to_segments(f, first, count, err);
-    memory m;
+    file_memory m;
     char line[SWEEP_EVENTS_LAST];
     const size_t last = last_line(first + count, line);
     motus_status status = table_text(f, first, 0, count, line, &m, err);
@@ -414,7 +384,7 @@ motus_status sweep_events_finish(sweep_events *f, motus_error *err)
         if (status) return status;
     }
     f->descriptor = -1;
-    return descriptor > STDERR_FILENO && close(descriptor) != 0 ? cannot_write(f, errno, err) : MOTUS_OK;
+    return descriptor > STDERR_FILENO && close(descriptor) != 0 ? file_cannot_write(f->path, errno, err) : MOTUS_OK;
 }
 
 motus_status sweep_events_join(sweep_events *f, stop_progress *progress, motus_error *err)

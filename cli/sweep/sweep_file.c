@@ -39,13 +39,6 @@ motus_status sweep_file_check(const options *o, motus_error *err)
     return target_check(o, path, err);
 }
 
-static motus_status cannot_write(const sweep_file *f, int code, motus_error *err)
-{
-    bool output = strcmp(f->path, "-") == 0;
-    if (code == EPIPE && output) stop_reader_gone();
-    return fail(err, MOTUS_FILE, "cannot write %s: %s", output ? "standard output" : f->path, strerror(code));
-}
-
 /* Returns the number of complete rows in `count` bytes, and in *end where the last of them ends. */
 static uint64_t complete_rows(const sweep_file *f, const char *bytes, size_t count, size_t *end)
 {
@@ -66,7 +59,7 @@ static motus_status put_head_bytes(sweep_file *f, const char *bytes, size_t coun
     int code = target_bytes(f->descriptor, bytes, count, &written);
     if (code && f->regular && ftruncate(f->descriptor, 0) != 0) code = errno;
     f->bytes = code ? 0 : count;
-    return code ? cannot_write(f, code, err) : MOTUS_OK;
+    return code ? file_cannot_write(f->path, code, err) : MOTUS_OK;
 }
 
 static motus_status put_npy_head(sweep_file *f, motus_error *err)
@@ -74,7 +67,8 @@ static motus_status put_npy_head(sweep_file *f, motus_error *err)
     char head[SWEEP_NPY_HEAD];
     sweep_npy_head(f->rows, f->sweep->columns, head);
     errno = EIO;
-    return pwrite(f->descriptor, head, sizeof head, 0) == (ssize_t)sizeof head ? MOTUS_OK : cannot_write(f, errno, err);
+    return pwrite(f->descriptor, head, sizeof head, 0) == (ssize_t)sizeof head ? MOTUS_OK
+                                                                               : file_cannot_write(f->path, errno, err);
 }
 
 /* Writes the head of a .npy to the .json beside it, before the first row. */
@@ -97,7 +91,7 @@ static motus_status put_head(sweep_file *f, motus_error *err)
     f->rows = f->bytes = f->stopped = f->lost = 0;
     memset(f->stopped_by, 0, sizeof f->stopped_by);
     if (f->regular && (ftruncate(f->descriptor, 0) != 0 || lseek(f->descriptor, 0, SEEK_SET) != 0))
-        return cannot_write(f, errno, err);
+        return file_cannot_write(f->path, errno, err);
     motus_status status = MOTUS_OK;
     if (f->regular) status = checks_begin(&f->checks, f->path, f->npy ? SWEEP_NPY_HEAD : 0, false, err);
     if (!status && !f->npy) {
@@ -107,7 +101,7 @@ static motus_status put_head(sweep_file *f, motus_error *err)
     if (status || !f->npy) return status;
     status = put_beside(f, err);
     if (!status) status = put_npy_head(f, err);
-    if (!status && lseek(f->descriptor, SWEEP_NPY_HEAD, SEEK_SET) < 0) return cannot_write(f, errno, err);
+    if (!status && lseek(f->descriptor, SWEEP_NPY_HEAD, SEEK_SET) < 0) return file_cannot_write(f->path, errno, err);
     f->bytes = SWEEP_NPY_HEAD;
     return status;
 }
@@ -122,8 +116,9 @@ static motus_status go_on(sweep_file *f, uint64_t end, motus_error *err)
     f->found = f->rows;
     status = checks_go_on(&f->checks, f->descriptor, f->bytes, err);
     if (status) return status;
-    if (f->bytes != end && ftruncate(f->descriptor, (off_t)f->bytes) != 0) return cannot_write(f, errno, err);
-    if (lseek(f->descriptor, (off_t)f->bytes, SEEK_SET) < 0) return cannot_write(f, errno, err);
+    if (f->bytes != end && ftruncate(f->descriptor, (off_t)f->bytes) != 0)
+        return file_cannot_write(f->path, errno, err);
+    if (lseek(f->descriptor, (off_t)f->bytes, SEEK_SET) < 0) return file_cannot_write(f->path, errno, err);
     return f->npy ? put_npy_head(f, err) : MOTUS_OK;
 }
 
@@ -155,7 +150,7 @@ motus_status sweep_file_open(sweep_file *f, const sweep *s, motus_error *err)
     motus_status status = target_lock(f->path, &f->descriptor, &f->regular, err);
     if (status || !f->regular) return status ? status : put_head(f, err);
     struct stat about; /* check again: the file may have changed before it was locked */
-    status = fstat(f->descriptor, &about) == 0 ? sweep_file_check(o, err) : cannot_write(f, errno, err);
+    status = fstat(f->descriptor, &about) == 0 ? sweep_file_check(o, err) : file_cannot_write(f->path, errno, err);
     if (status) return status;
     if (target_archive(f->path)) return open_archive(f, o->resume && about.st_size > 0, made, err);
     return o->resume && about.st_size > 0 ? go_on(f, (uint64_t)about.st_size, err) : put_head(f, err);
@@ -178,7 +173,7 @@ static motus_status flush(sweep_file *f, uint64_t *rows, motus_error *err)
     checks_add(&f->checks, f->buffer, end);
     checks_mark(&f->checks, NULL);
     if (f->regular && ftruncate(f->descriptor, (off_t)f->bytes) != 0) code = errno;
-    return cannot_write(f, code, err);
+    return file_cannot_write(f->path, code, err);
 }
 
 static char *put_word(char *out, const char *word)
@@ -246,12 +241,12 @@ motus_status sweep_file_rows(sweep_file *f, size_t count, const sweep_rows *give
 motus_status sweep_file_finish(sweep_file *f, motus_error *err)
 {
     if (f->archive) return sweep_archive_finish(f, err);
-    if (f->regular && !disk_sync(f->descriptor)) return cannot_write(f, errno, err);
+    if (f->regular && !disk_sync(f->descriptor)) return file_cannot_write(f->path, errno, err);
     const motus_status status = checks_finish(&f->checks, err);
     if (status) return status;
     int descriptor = f->descriptor;
     f->descriptor = -1;
-    return descriptor > STDERR_FILENO && close(descriptor) != 0 ? cannot_write(f, errno, err) : MOTUS_OK;
+    return descriptor > STDERR_FILENO && close(descriptor) != 0 ? file_cannot_write(f->path, errno, err) : MOTUS_OK;
 }
 
 void sweep_file_close(sweep_file *f)

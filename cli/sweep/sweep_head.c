@@ -189,12 +189,11 @@ static motus_status npy_head(const sweep *s, file_out *f, motus_error *err)
 motus_status sweep_head_make(sweep *s, bool npy, motus_error *err)
 {
     sweep_head_fingerprint(s, motus_version(), s->fingerprint);
-    char memory[] = "memory";
-    file_out f = {.stream = open_memstream(&s->head, &s->head_length), .path = memory};
-    if (!f.stream) return complain_memory(err);
-    motus_status status = npy ? npy_head(s, &f, err) : csv_head(s, &f, err);
-    bool failed = ferror(f.stream) != 0;
-    if ((fclose(f.stream) != 0 || failed) && !status) status = complain_memory(err);
+    file_memory m;
+    motus_status status = file_memory_open(&m, err);
+    if (!status) status = npy ? npy_head(s, &m.file, err) : csv_head(s, &m.file, err);
+    status = file_memory_close(&m, status, err);
+    s->head = m.text, s->head_length = m.length;
     return status;
 }
 

@@ -54,10 +54,7 @@ static motus_status unknown(const load *m, const char *item, const char *word, s
     memcpy(given, word, length < sizeof given ? length : sizeof given - 1);
     for (size_t i = 0; i < REDUCTIONS; i++) {
         const int d = near_distance(reductions[i].word, given, best);
-        if (d < best) {
-            best = d;
-            near = reductions[i].word;
-        }
+        if (d < best) near = reductions[i].word, best = d;
     }
     if (length < sizeof given && motus_column_find(m->system, given, &first, &count, NULL) == MOTUS_OK) {
         fail(err, MOTUS_ARGUMENT, "--record %s: %s is recorded at the end of the run, not at a time", item, given);

@@ -16,21 +16,11 @@
 
 enum { CHUNK = 1 << 20 };
 
-/* Reads `count` bytes from `place`, or fewer at the end of the file. Returns how many, or -1 after a failure. */
 static ssize_t read_at(const sweep_file *f, char *out, size_t count, uint64_t place, motus_error *err)
 {
-    size_t done = 0;
-    while (done < count) {
-        ssize_t got = pread(f->descriptor, out + done, count - done, (off_t)(place + done));
-        if (got < 0 && errno == EINTR) continue;
-        if (got < 0) {
-            fail(err, MOTUS_FILE, "cannot read %s: %s", f->path, strerror(errno));
-            return -1;
-        }
-        if (got == 0) break;
-        done += (size_t)got;
-    }
-    return (ssize_t)done;
+    const ssize_t got = file_read_at(f->descriptor, out, count, place);
+    if (got < 0) file_cannot("read", f->path, errno, err);
+    return got;
 }
 
 static motus_status another(const sweep_file *f, const char *command, motus_error *err)

@@ -29,12 +29,6 @@ typedef struct contents {
     archive_verified verified;
 } contents;
 
-static const char *said(const contents *c, const char *name)
-{
-    const char *text = motus_archive_note_of(c->file, name);
-    return text ? text : "";
-}
-
 /* Finds the blocks whose hashes match their bytes. */
 static motus_status find_blocks(contents *c, stop_progress *progress, motus_error *err)
 {
@@ -62,9 +56,10 @@ static motus_status put_head(const contents *c, file_out *out, motus_error *err)
     char line[SWEEP_IDENTITY];
     const char *share = motus_archive_note_of(c->file, "shard");
     motus_status status = file_text(out, "# ", err);
-    if (!status) status = file_text(out, said(c, "command"), err);
-    snprintf(line, sizeof line, "\n# motus %.40s, trajectories %.24s, fingerprint %.32s%s%.32s\n", said(c, "motus"),
-             said(c, "trajectories"), said(c, "fingerprint"), share ? ", shard " : "", share ? share : "");
+    if (!status) status = file_text(out, archived_note(c->file, "command"), err);
+    snprintf(line, sizeof line, "\n# motus %.40s, trajectories %.24s, fingerprint %.32s%s%.32s\n",
+             archived_note(c->file, "motus"), archived_note(c->file, "trajectories"),
+             archived_note(c->file, "fingerprint"), share ? ", shard " : "", share ? share : "");
     if (!status) status = file_text(out, line, err);
     if (!status) status = file_text(out, "index", err);
     for (size_t k = 0; !status && k < c->columns; k++) {
@@ -171,7 +166,7 @@ static motus_status incomplete(const contents *c, motus_error *err)
 {
     fail(err, MOTUS_STATE, "%" PRIu64 " of %" PRIu64 " blocks of %s are missing or damaged", c->missing, c->blocks,
          c->options->operand);
-    hint(err, "compute them: %.400s -o %s %s", said(c, "command"), c->options->operand, again(c));
+    hint(err, "compute them: %.400s -o %s %s", archived_note(c->file, "command"), c->options->operand, again(c));
     return MOTUS_STATE;
 }
 
@@ -200,7 +195,7 @@ static motus_status extract(const contents *c, stop_progress *progress, motus_er
     if (!status && what == ROWS && c->missing) status = incomplete(c, err);
     if (!status) status = file_create(&out, name, err);
     if (!status)
-        status = what == MODEL   ? file_text(&out, said(c, "model"), err)
+        status = what == MODEL   ? file_text(&out, archived_note(c->file, "model"), err)
                  : what == STATE ? archive_run_state(c->file, c->options, &out, err)
                  : c->run        ? archive_run_csv(c->file, c->options, &out, progress, err)
                                  : write_csv(c, &out, progress, err);
@@ -215,10 +210,10 @@ static motus_status extract(const contents *c, stop_progress *progress, motus_er
 static void report_json(const contents *c)
 {
     json j = text_json(stdout);
-    json_string(&j, "motus", said(c, "motus"));
-    json_string(&j, "command", said(c, "command"));
-    json_string(&j, "method", said(c, "method"));
-    json_string(&j, "fingerprint", said(c, "fingerprint"));
+    json_string(&j, "motus", archived_note(c->file, "motus"));
+    json_string(&j, "command", archived_note(c->file, "command"));
+    json_string(&j, "method", archived_note(c->file, "method"));
+    json_string(&j, "fingerprint", archived_note(c->file, "fingerprint"));
     json_string(&j, "shard", motus_archive_note_of(c->file, "shard"));
     json_integer(&j, "rows", (int64_t)motus_archive_rows(c->file));
     json_integer(&j, "blocks", (int64_t)c->blocks);
@@ -244,9 +239,9 @@ static void report(const contents *c)
 {
     const char *share = motus_archive_note_of(c->file, "shard");
     text_put(stdout, c->options->operand);
-    printf(": an archive of motus %.40s\n\n", said(c, "motus"));
-    line("command", said(c, "command"));
-    line("method", said(c, "method"));
+    printf(": an archive of motus %.40s\n\n", archived_note(c->file, "motus"));
+    line("command", archived_note(c->file, "command"));
+    line("method", archived_note(c->file, "method"));
     if (share) line("shard", share);
     printf("  %-13s%" PRIu64 ", in %" PRIu64 " %sblock%s: ", c->run ? "rows" : "trajectories",
            motus_archive_rows(c->file), c->blocks, motus_archive_compressed(c->file) ? "compressed " : "",
@@ -285,8 +280,8 @@ static motus_status judge(const contents *c, motus_error *err)
     fail(err, MOTUS_STATE, "%s is damaged: %" PRIu64 " of its %" PRIu64 " blocks %s not match %s hash",
          c->options->operand, c->damaged, c->blocks, c->damaged == 1 ? "does" : "do",
          c->damaged == 1 ? "its" : "their");
-    hint(err, "use a copy of the file, or compute the damaged blocks: %.400s -o %s %s", said(c, "command"),
-         c->options->operand, again(c));
+    hint(err, "use a copy of the file, or compute the damaged blocks: %.400s -o %s %s",
+         archived_note(c->file, "command"), c->options->operand, again(c));
     return MOTUS_STATE;
 }
 

@@ -1,31 +1,26 @@
 /* motus archive, for the archive of a run. */
 #include "cli/verbs/archive.h"
 
+#include "cli/files/archived.h"
 #include "cli/run/run.h"
 #include "cli/words/complain.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-static const char *said(const motus_archive *a, const char *name)
-{
-    const char *text = motus_archive_note_of(a, name);
-    return text ? text : "";
-}
-
 bool archive_run_is(const motus_archive *a)
 {
     static const char run[] = "motus run ";
-    return strncmp(said(a, "command"), run, sizeof run - 1) == 0;
+    return strncmp(archived_note(a, "command"), run, sizeof run - 1) == 0;
 }
 
 static motus_status put_head(motus_archive *a, csv *plan, file_out *out, motus_error *err)
 {
     char line[160];
     motus_status status = file_text(out, "# ", err);
-    if (!status) status = file_text(out, said(a, "command"), err);
-    snprintf(line, sizeof line, "\n# motus %.40s, method %.40s, fingerprint %.32s\n", said(a, "motus"),
-             said(a, "method"), said(a, "fingerprint"));
+    if (!status) status = file_text(out, archived_note(a, "command"), err);
+    snprintf(line, sizeof line, "\n# motus %.40s, method %.40s, fingerprint %.32s\n", archived_note(a, "motus"),
+             archived_note(a, "method"), archived_note(a, "fingerprint"));
     if (!status) status = file_text(out, line, err);
     return status ? status : csv_names(plan, out, err);
 }
@@ -37,11 +32,8 @@ static motus_status put_rows(motus_archive *a, csv *plan, const run_columns *col
     uint64_t first;
     size_t most, count;
     motus_archive_block(a, 0, &first, &most);
-    double **rooms = calloc(columns->count, sizeof *rooms), *row = calloc(2 * plan->count + 1, sizeof *row);
+    double **rooms = run_columns_rooms(columns, most + 1), *row = calloc(2 * plan->count + 1, sizeof *row);
     motus_status status = rooms && row ? MOTUS_OK : complain_memory(err);
-    for (size_t k = 0; !status && k < columns->count; k++)
-        if (!(rooms[k] = malloc((most * columns->columns[k].width + 1) * sizeof **rooms)))
-            status = complain_memory(err);
     for (uint64_t b = 0; !status && b < blocks; b++) {
         motus_archive_block(a, b, &first, &count);
         for (size_t k = 0; !status && k < columns->count; k++)

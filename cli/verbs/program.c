@@ -38,10 +38,7 @@ static motus_status unknown(const char *name, motus_error *err)
     const char *near = NULL;
     for (size_t i = 0; i < VERB_COUNT; i++) {
         const int d = near_distance(verbs[i].name, name, best);
-        if (d < best) {
-            best = d;
-            near = verbs[i].name;
-        }
+        if (d < best) near = verbs[i].name, best = d;
     }
     fail(err, MOTUS_ARGUMENT, "unknown %s %s", name[0] == '-' ? "option" : "verb", name);
     if (length > 6 && strcmp(name + length - 6, ".motus") == 0)

@@ -44,10 +44,7 @@ static motus_status find(const char *name, unsigned verb, size_t *found, motus_e
         }
         if (matches(o, name)) elsewhere = o->name;
         const int d = near_distance(o->name, name, distance);
-        if (o->verbs & verb && d < distance) {
-            near = o->name;
-            distance = d;
-        }
+        if (o->verbs & verb && d < distance) near = o->name, distance = d;
     }
     if (elsewhere) return not_here(elsewhere, verb, err);
     fail(err, MOTUS_ARGUMENT, "unknown option %s", name);
