@@ -147,10 +147,10 @@ void grid_free(grid *g)
 /* ---- the trajectories that are furthest apart ---- */
 
 enum {
-    ALL = 16,      /* up to so many trajectories, all are taken */
-    CORNERS = 4,   /* up to so many axes, all corners are taken */
-    ROWS = 64,     /* at most so many are taken */
-    DEVIATIONS = 3 /* the ends of a normal distribution: so many deviations from the mean */
+    ALL = 16,      /* up to this many trajectories, all are taken */
+    CORNERS = 4,   /* up to this many axes, all corners are taken */
+    ROWS = 64,     /* at most this many are taken */
+    DEVIATIONS = 3 /* the ends of a normal distribution: this many deviations from the mean */
 };
 
 /* Finds the indices of the least and the largest value of --vary. */

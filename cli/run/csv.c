@@ -1,4 +1,4 @@
-/* The trajectory as CSV (RFC 4180, but a line ends with a newline alone).
+/* The trajectory as CSV (RFC 4180, except that a line ends with only a newline).
  *
  * Invariant: every line of the head begins with '#' and has no control character, whatever the command line has. A name
  * with a comma or a quote is in quotes. Every number reads back as the same double in every locale.

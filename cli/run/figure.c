@@ -17,7 +17,7 @@ enum {
     FINE_SAMPLES = 200000,
     COARSE_SAMPLES = 400,
     BAR_SAMPLES = 500,
-    MOST_CURVES = 8, /* in a panel, since there are so many styles */
+    MOST_CURVES = 8, /* in a panel; there are as many styles */
     BUNDLE = 6,      /* a family up to this size is drawn as curves, and a larger one as a heat map */
     HEAT_CELLS = 300,
     FIELD_SIDE = 200

@@ -14,8 +14,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { DRAWN = 12 }; /* the figure draws all methods if they are at most so many, */
-#define NEAR 2.0     /* or else those that need at most so many times the least work at some accuracy */
+enum { DRAWN = 12 }; /* the figure draws all methods if there are at most this many */
+/* if there are more, it draws those that need at most this many times the least work at some accuracy */
+#define NEAR 2.0
 
 static void tell(json *j, const void *result) { tell_ranking(j, result); }
 

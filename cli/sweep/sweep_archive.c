@@ -25,7 +25,7 @@ struct sweep_archive {
 };
 enum { AT_A_TIME = 256 };
 
-/* What a process that fails or is warned adds to the counter; no sweep has so many blocks. */
+/* What a process that fails or is warned adds to the counter; no sweep has that many blocks. */
 #define GIVEN_UP (UINT64_C(1) << 50)
 
 uint64_t sweep_archive_block(const options *o)
@@ -261,7 +261,7 @@ static motus_status make_room(sweep_archive *a, motus_error *err)
 static uint64_t block_of(const sweep_file *f) { return f->sweep->shard.block; }
 
 /* Takes blocks from the common counter. The fewer are left, the fewer it takes, so that all processes end together; but
- * it takes enough to fill the lanes, if there are so many for each process. */
+ * it takes enough to fill the lanes, if there are that many for each process. */
 static void take_blocks(sweep_file *f)
 {
     enum { AT_ONCE = 16 * SHARD_BLOCK, SHARES = 4 };

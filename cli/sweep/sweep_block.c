@@ -18,7 +18,7 @@
 /* BLOCKS_MOST: of a sweep, since each block costs some memory and time. */
 enum { BLOCKS_MOST = 1 << 16, TRIALS = 8, STEPS_LEAST = 8, STEPS_MOST = 256 };
 
-/* Trajectories that lie evenly in the sweep. */
+/* Trajectories that are spread evenly over the sweep. */
 typedef struct trials {
     size_t count;
     double *values, **of; /* TRIALS values of each axis */

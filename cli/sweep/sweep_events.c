@@ -90,7 +90,7 @@ static motus_status put(sweep_events *f, const char *text, size_t length, size_t
     return MOTUS_OK;
 }
 
-/* Writes the last line of a table with the events of so many trajectories. Returns its length. */
+/* Writes the last line of a table with the events of this many trajectories. Returns its length. */
 static size_t last_line(uint64_t trajectories, char out[SWEEP_EVENTS_LAST])
 {
     return (size_t)snprintf(out, SWEEP_EVENTS_LAST, SWEEP_EVENTS_END, trajectories);

@@ -1,8 +1,8 @@
 /* motus sweep --plan: what the sweep would take, from a sample that is computed and measured.
  *
- * The pieces of the sample lie all over the sweep, because trajectories with different values may take different work.
- * The differences of the pieces give the error of the mean. A piece is as large as a batch of the sweep, since smaller
- * pieces would leave more lanes idle. No file is touched.
+ * The pieces of the sample are spread over the sweep, because trajectories with different values may take different
+ * work. The differences of the pieces give the error of the mean. A piece is as large as a batch of the sweep, since
+ * smaller pieces would leave more lanes idle. No file is touched.
  */
 #include "cli/files/stop.h"
 #include "cli/sweep/sweep.h"
@@ -40,7 +40,7 @@ static bool waits_for_compiler(const sweep *s)
            (!s->options->machine || strcmp(s->options->machine, "auto") == 0);
 }
 
-/* Returns where piece k begins. The multiples of the golden section lie evenly, however many there are. */
+/* Returns where piece k begins. The multiples of the golden section are spread evenly, however many there are. */
 static uint64_t place_of(const plan *p, size_t k)
 {
     const double golden = 0.6180339887498949, part = fmod(((double)k + 0.5) * golden, 1);

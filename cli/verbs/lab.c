@@ -68,7 +68,7 @@ static motus_status find(char **path, const char *program, motus_error *err)
 
 static motus_status not_a_page(const lab_page *p, const char *why, motus_error *err)
 {
-    return complain(err, MOTUS_FILE, "make lab builds it anew", "%s is not the page of the lab: %s", p->path, why);
+    return complain(err, MOTUS_FILE, "make lab builds it again", "%s is not the page of the lab: %s", p->path, why);
 }
 
 /* Reads the page that $MOTUS_LAB_PAGE names, or that beside the program, or the installed one. `program` is argv[0].

@@ -1,4 +1,4 @@
-/* motus, the program, alone on its machine. */
+/* motus, the program, without a team. */
 #include "cli/verbs/program.h"
 
 int main(int argc, char **argv)
