@@ -52,7 +52,7 @@ gives "... its rows" 0 "$motus" archive "$place/whole.h5" -o "$place/rows.csv"
 that "... are the CSV of the sweep" cmp "$place/rows.csv" "$place/whole.csv"
 gives "... its model" 0 "$motus" archive "$place/whole.h5" -o "$place/model.motus"
 that "... is the model" cmp "$place/model.motus" "$swing"
-refuses "... nothing else" 2 "its rows or its model" "$motus" archive "$place/whole.h5" -o "$place/rows.npy"
+refuses "... nothing else" 2 "the name must end in .csv or .motus" "$motus" archive "$place/whole.h5" -o "$place/rows.npy"
 refuses "... and no file that is there" 2 "exists" "$motus" archive "$place/whole.h5" -o "$place/rows.csv"
 refuses "a table that is no archive" 2 "is not an archive of motus" "$motus" archive "$place/whole.csv"
 # Trajectories that stop, that an event ends, and errors.
@@ -243,7 +243,7 @@ that "... has a table without one" says "# end of the events of trajectories: 0"
 refuses "the archive is no table of events, whatever its name" 2 "is named for two outputs" "${turn[@]}" -o "$place/twice.h5" --events "$place/./twice.h5" --force
 refuses "nor may it be among the segments" 1 "cannot remove" eval "mkdir -p '$place/in.csv.segments/segment-2'; ${turn[*]@Q} -o '$place/in.h5' --events '$place/in.csv' --force"
 : >"$place/way.csv.segments"
-refuses "a file where the segments are to be" 2 "is there" "${turn[@]}" -o "$place/way.h5" --events "$place/way.csv"
+refuses "a file where the segments are to be" 2 "way.csv.segments exists" "${turn[@]}" -o "$place/way.h5" --events "$place/way.csv"
 that "... begins nothing" absent "$place/way.h5"
 refuses "a table in a folder that is not there" 1 "cannot write" "${turn[@]}" -o "$place/way.h5" --events "$place/nowhere/way.csv"
 that "... begins nothing" absent "$place/way.h5"
@@ -317,8 +317,8 @@ with open(sys.argv[1], 'r+b') as f:
     f.seek(place + size // 2); byte = f.read(1); f.seek(place + size // 2); f.write(bytes([byte[0] ^ 64]))
 " "$place/packed1.h5"
 gives "... motus archive finds the block" 2 "$motus" archive "$place/packed1.h5"
-that "... and says so" eval "says ' 1 damaged, the first of them number 2' && says 'is damaged: 1 of its 8 blocks does not have the hash' '$err' && says ' --force --compress' '$err'"
-refuses "... quietly, too" 2 "is damaged: 1 of its 8 blocks does not have the hash" "$motus" archive "$place/packed1.h5" --quiet
+that "... and says so" eval "says ' 1 damaged, the first of them number 2' && says 'is damaged: 1 of its 8 blocks does not match its hash' '$err' && says ' --force --compress' '$err'"
+refuses "... quietly, too" 2 "is damaged: 1 of its 8 blocks does not match its hash" "$motus" archive "$place/packed1.h5" --quiet
 refuses "... --resume cannot mend it" 2 "of its blocks are damaged" long -o "$place/packed1.h5" --resume
 gives "... --force does" 0 long -o "$place/packed1.h5" --force --compress
 that "... to the same bytes" [ "$(sum "$place/packed1.h5")" = "$packed" ]
@@ -337,7 +337,7 @@ for more in "--method dop853 --tolerance 1e-9" "--errors" "--accuracy 1e-8" "--s
     gives "a sweep with $more" 0 "$motus" archive "$place/it's one.h5" --verify all
     that "... is what its command computes" says "computed again"
 done
-for part in 0% 101% 1 x "%"; do refuses "--verify $part" 2 "this is no part" "$motus" archive "$place/long.h5" --verify "$part"; done
+for part in 0% 101% 1 x "%"; do refuses "--verify $part" 2 "this is not a part" "$motus" archive "$place/long.h5" --verify "$part"; done
 build=$(dirname "$motus")
 change=$place/change
 if "${CC:-cc}" -std=c17 -O1 -I include test/archive/change.c "$build/libmotus-archive.a" "$build/libmotus.a" -lm -ldl -lpthread -o "$change" 2>"$err"; then

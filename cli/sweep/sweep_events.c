@@ -50,7 +50,7 @@ motus_status sweep_events_check(const options *o, motus_error *err)
                         "--resume continues the table of events too, and needs a file");
     if (sweep_events_in_segments(o) && !o->plan && !o->resume && !o->force && segments_there(o->events))
         return complain(err, MOTUS_ARGUMENT, "--resume continues it, --force replaces it",
-                        "%s.segments has the events of a sweep that was interrupted", o->events);
+                        "%s.segments exists: an interrupted sweep leaves its events there", o->events);
     return target_check(o, o->events, err);
 }
 
