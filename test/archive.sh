@@ -218,7 +218,7 @@ for damage in none "a byte of a block" "a byte of the line behind it" "all"; do
     esac
     if [ "$damage" = none ]; then
         refuses "... without --resume the archive is there" 2 "exists" "${further[@]}" -o "$place/cut.h5" --events "$place/cut.csv"
-        refuses "... nor may another sweep take the segments" 2 "of a sweep that was interrupted" "${turn[@]}" -o "$place/cut2.h5" --events "$place/cut.csv"
+        refuses "... nor may another sweep take the segments" 2 "cut.csv.segments exists" "${turn[@]}" -o "$place/cut2.h5" --events "$place/cut.csv"
         refuses "... also with --resume" 2 "events of another sweep" "${turn[@]}" -o "$place/turn.h5" --events "$place/cut.csv" --resume
     fi
     gives "damaged: $damage; --resume" 0 "${further[@]}" -o "$place/cut.h5" --events "$place/cut.csv" --resume --json
