@@ -79,7 +79,8 @@ motus_status target_check(const options *o, const char *path, motus_error *err)
     return MOTUS_OK;
 }
 
-/* The lock of an archive is behind its end, so that HDF5, which asks for a shared lock of the file, can read it meanwhile. */
+/* The lock of an archive is behind its end, so that HDF5, which asks for a shared lock of the file, can read it
+ * meanwhile. */
 bool target_busy(const char *path, int descriptor) { return platform_locked(descriptor, target_archive(path)); }
 bool target_take(const char *path, int descriptor) { return platform_lock(descriptor, target_archive(path)); }
 
