@@ -22,80 +22,46 @@ typedef struct layout {
     const void *start; /* the defaults, but for the size; NULL: zeros */
 } layout;
 
+/* The defaults of a type: the members that are not 0. */
+#define LAYOUT(type, maker, sizes, ...)                       \
+    {                                                         \
+        "" #type, maker, sizes, &(const type) { __VA_ARGS__ } \
+    }
+
 static const layout layouts[] = {
     [MOTUS_DEF_ERROR] = {"motus_error", "error", SIZES(motus_error), NULL},
-    [MOTUS_DEF_TEXT] = {"motus_text_def", "text", SIZES(motus_text_def), &(const motus_text_def){.length = SIZE_MAX}},
-    [MOTUS_DEF_CALLBACK] = {"motus_callback_def", "callback", SIZES(motus_callback_def),
-                            &(const motus_callback_def){
-                                .quantities = 1, .invariants = 1, .depends_on_velocity = 1, .depends_on_time = 1}},
-    [MOTUS_DEF_RUN] = {"motus_run_def", "run", SIZES(motus_run_def),
-                       &(const motus_run_def){.switches = MOTUS_SWITCHES_USUAL,
-                                              .step = NAN,
-                                              .accuracy = NAN,
-                                              .tolerance = NAN,
-                                              .until = NAN,
-                                              .start = NAN}},
-    [MOTUS_DEF_STUDY] = {"motus_study_def", "study", SIZES(motus_study_def),
-                         &(const motus_study_def){.step = NAN, .until = NAN, .coarsest = NAN, .finest = NAN}},
-    [MOTUS_DEF_ENSEMBLE] = {"motus_ensemble_def", "ensemble", SIZES(motus_ensemble_def),
-                            &(const motus_ensemble_def){.step = NAN,
-                                                        .until = NAN,
-                                                        .tolerance = NAN,
-                                                        .accuracy = NAN,
-                                                        .every = 1,
-                                                        .switches = MOTUS_SWITCHES_USUAL}},
+    [MOTUS_DEF_TEXT] = LAYOUT(motus_text_def, "text", SIZES(motus_text_def), .length = SIZE_MAX),
+    [MOTUS_DEF_CALLBACK] = LAYOUT(motus_callback_def, "callback", SIZES(motus_callback_def), .quantities = 1,
+                                  .invariants = 1, .depends_on_velocity = 1, .depends_on_time = 1),
+    [MOTUS_DEF_RUN] = LAYOUT(motus_run_def, "run", SIZES(motus_run_def), .switches = MOTUS_SWITCHES_USUAL, .step = NAN,
+                             .accuracy = NAN, .tolerance = NAN, .until = NAN, .start = NAN),
+    [MOTUS_DEF_STUDY] = LAYOUT(motus_study_def, "study", SIZES(motus_study_def), .step = NAN, .until = NAN,
+                               .coarsest = NAN, .finest = NAN),
+    [MOTUS_DEF_ENSEMBLE] = LAYOUT(motus_ensemble_def, "ensemble", SIZES(motus_ensemble_def), .step = NAN, .until = NAN,
+                                  .tolerance = NAN, .accuracy = NAN, .every = 1, .switches = MOTUS_SWITCHES_USUAL),
     [MOTUS_DEF_VARIABLE] = {"motus_variable", "variable", SIZES(motus_variable), NULL},
     [MOTUS_DEF_COLUMN] = {"motus_column", "column", SIZES(motus_column), NULL},
     [MOTUS_DEF_PARAMETER] = {"motus_parameter", "parameter", SIZES(motus_parameter), NULL},
     [MOTUS_DEF_INITIAL] = {"motus_initial", "initial", SIZES(motus_initial), NULL},
-    [MOTUS_DEF_SETTINGS] =
-        {"motus_settings", "settings", SIZES(motus_settings),
-         &(const motus_settings){
-             .step = NAN, .from = NAN, .until = NAN, .tolerance = NAN, .accuracy = NAN, .every_time = NAN}},
+    [MOTUS_DEF_SETTINGS] = LAYOUT(motus_settings, "settings", SIZES(motus_settings), .step = NAN, .from = NAN,
+                                  .until = NAN, .tolerance = NAN, .accuracy = NAN, .every_time = NAN),
     [MOTUS_DEF_ANALYSIS] = {"motus_analysis", "analysis", SIZES(motus_analysis), NULL},
     [MOTUS_DEF_STATEMENT] = {"motus_statement", "statement", SIZES(motus_statement), NULL},
-    [MOTUS_DEF_RUN_STATISTICS] = {"motus_run_statistics", "run_statistics", SIZES(motus_run_statistics),
-                                  &(const motus_run_statistics){.method = "",
-                                                                .machine = "",
-                                                                .choice = "",
-                                                                .note = "",
-                                                                .not_located = "",
-                                                                .cut = "",
-                                                                .step = NAN,
-                                                                .first_step = NAN,
-                                                                .last_step = NAN,
-                                                                .tolerance = NAN,
-                                                                .accuracy = NAN,
-                                                                .reached = NAN,
-                                                                .shortest_step = NAN,
-                                                                .longest_step = NAN,
-                                                                .jump = -1,
-                                                                .compiled_from = -1,
-                                                                .events_unseen_from = NAN,
-                                                                .events_unseen_of = "",
-                                                                .jump_time = NAN,
-                                                                .jump_power = NAN}},
-    [MOTUS_DEF_ESTIMATE] = {"motus_estimate", "estimate", SIZES(motus_estimate),
-                            &(const motus_estimate){
-                                .significant_until = NAN, .rate = NAN, .work = NAN, .reason = "", .looked = NAN}},
-    [MOTUS_DEF_EVENT_ROW] = {"motus_event_row", "event_row", SIZES(motus_event_row),
-                             &(const motus_event_row){.name = "", .time = NAN, .error = NAN}},
-    [MOTUS_DEF_SWITCH] = {"motus_switch", "switch", SIZES(motus_switch),
-                          &(const motus_switch){.operation = "", .surface = "", .not_located = ""}},
-    [MOTUS_DEF_ENSEMBLE_STATISTICS] = {"motus_ensemble_statistics", "ensemble_statistics",
-                                       SIZES(motus_ensemble_statistics),
-                                       &(
-                                           const motus_ensemble_statistics){.method = "",
-                                                                            .machine = "",
-                                                                            .note = "",
-                                                                            .not_located = "",
-                                                                            .tolerance = NAN,
-                                                                            .accuracy = NAN,
-                                                                            .compiled_from = -1,
-                                                                            .lanes = 1,
-                                                                            .threads = 1,
-                                                                            .switches = MOTUS_SWITCHES_USUAL}},
-};
+    [MOTUS_DEF_RUN_STATISTICS] = LAYOUT(
+        motus_run_statistics, "run_statistics", SIZES(motus_run_statistics), .method = "", .machine = "", .choice = "",
+        .note = "", .not_located = "", .cut = "", .step = NAN, .first_step = NAN, .last_step = NAN, .tolerance = NAN,
+        .accuracy = NAN, .reached = NAN, .shortest_step = NAN, .longest_step = NAN, .jump = -1, .compiled_from = -1,
+        .events_unseen_from = NAN, .events_unseen_of = "", .jump_time = NAN, .jump_power = NAN),
+    [MOTUS_DEF_ESTIMATE] = LAYOUT(motus_estimate, "estimate", SIZES(motus_estimate), .significant_until = NAN,
+                                  .rate = NAN, .work = NAN, .reason = "", .looked = NAN),
+    [MOTUS_DEF_EVENT_ROW] =
+        LAYOUT(motus_event_row, "event_row", SIZES(motus_event_row), .name = "", .time = NAN, .error = NAN),
+    [MOTUS_DEF_SWITCH] =
+        LAYOUT(motus_switch, "switch", SIZES(motus_switch), .operation = "", .surface = "", .not_located = ""),
+    [MOTUS_DEF_ENSEMBLE_STATISTICS] =
+        LAYOUT(motus_ensemble_statistics, "ensemble_statistics", SIZES(motus_ensemble_statistics), .method = "",
+               .machine = "", .note = "", .not_located = "", .tolerance = NAN, .accuracy = NAN, .compiled_from = -1,
+               .lanes = 1, .threads = 1, .switches = MOTUS_SWITCHES_USUAL)};
 
 static uint32_t size_now(const layout *l) { return l->sizes[l->count - 1]; }
 
