@@ -123,6 +123,19 @@ void *arena_replace(arena *a, void *old, size_t old_bytes, size_t new_bytes)
     return p;
 }
 
+bool arena_more(arena *a, void *list, size_t count, uint32_t *room, size_t size)
+{
+    if (count < *room) return true;
+    const uint32_t wider = *room + *room / 2 + 16;
+    void *old;
+    memcpy(&old, list, sizeof old);
+    void *more = arena_replace(a, old, count * size, wider * size);
+    if (!more) return false;
+    memcpy(list, &more, sizeof more);
+    *room = wider;
+    return true;
+}
+
 char *arena_text(arena *a, const char *text, size_t length)
 {
     char *p = length < SIZE_MAX ? arena_take(a, length + 1) : NULL;

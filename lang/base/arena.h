@@ -30,7 +30,9 @@ void *arena_grow(arena *, void *old, size_t old_bytes, size_t new_bytes); /* a c
 /* Copies a piece into a larger one, and gives the old memory back to the hooks if it had a block of its own: nothing
  * may point into it any more. */
 void *arena_replace(arena *, void *old, size_t old_bytes, size_t new_bytes);
-void arena_drop(arena *, const void *piece, size_t bytes);  /* likewise gives the memory back */
+/* Makes room for one more element of a list, *(T **)list, into which nothing may point. False: there is no memory. */
+bool arena_more(arena *, void *list, size_t count, uint32_t *room, size_t size);
+void arena_drop(arena *, const void *piece, size_t bytes);  /* gives back a block of its own */
 char *arena_text(arena *, const char *text, size_t length); /* a copy that ends with 0 */
 void arena_release(arena *);
 

@@ -45,13 +45,7 @@ static void assume(emit *e, uint32_t place, double value)
 {
     for (uint32_t k = 0; k < e->assumed_count; k++)
         if (e->assumed[k].place == place) return;
-    if (e->assumed_count == e->assumed_room) {
-        const uint32_t room = e->assumed_room ? 2 * e->assumed_room : 8;
-        emit_assumed *more = arena_grow(e->text.arena, e->assumed, e->assumed_room * sizeof *more, room * sizeof *more);
-        if (!more) return;
-        e->assumed = more;
-        e->assumed_room = room;
-    }
+    if (!arena_more(e->text.arena, &e->assumed, e->assumed_count, &e->assumed_room, sizeof *e->assumed)) return;
     e->assumed[e->assumed_count++] = (emit_assumed){place, value};
 }
 

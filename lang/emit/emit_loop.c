@@ -39,24 +39,20 @@ static void write_eights(writer *w, uint32_t region)
     const plan_region *r = &w->plan.regions.at[region];
     const int level = r->level;
     const bool along = w->e->vectors && w->part == RUNNING;
-    emit_line(w, "if (n%d > 16) {", level);
-    w->depth++;
+    OPEN(w, "if (n%d > 16) {", level);
     if (along) EACH_SUM(k, r)
     emit_line(w, "reals v%u[8 / WIDTH] = {MANY(0.0)};", k);
     emit_line(w, "for (; m%d + 8 <= n%d; m%d += 8)", level, level, level);
     if (along) emit_line(w, "#pragma GCC unroll 8");
-    emit_line(w, along ? "for (int k = 0; k < 8 / WIDTH; k++) {" : "for (int k = 0; k < 8; k++) {");
-    w->depth++;
+    OPEN(w, along ? "for (int k = 0; k < 8 / WIDTH; k++) {" : "for (int k = 0; k < 8; k++) {");
     emit_line(w, "const int64_t j%d = f%d + m%d + k%s;", level, level, level, along ? " * WIDTH" : "");
     w->along = along ? level : -1;
     emit_region(w, region);
     w->along = -1;
-    w->depth--;
-    emit_line(w, "}");
+    CLOSE(w);
     if (along) EACH_SUM(k, r)
     emit_line(w, "for (int k = 0; k < 8; k++) s%u[k] = LANE_OF(v%u[k / WIDTH], k %% WIDTH);", k, k);
-    w->depth--;
-    emit_line(w, "}");
+    CLOSE(w);
     w->e->uses_vectors |= along;
 }
 
@@ -73,22 +69,19 @@ void emit_total(writer *w, uint32_t k, const char *type, const char *first, cons
 
 static void write_pairs_one_by_one(writer *w, uint32_t region)
 {
-    emit_line(w, "for (; m1 < e1; m1++) {");
-    w->depth++;
+    OPEN(w, "for (; m1 < e1; m1++) {");
     emit_line(w, "const int64_t j1 = f1 + m1, k = rows > 1 ? m1 & 7 : 0;");
     w->skips = true;
     emit_region(w, region);
     emit_pair_others(w, region);
     w->skips = false;
-    w->depth--;
-    emit_line(w, "}");
+    CLOSE(w);
 }
 
 static void write_pairs_by_eights(writer *w, uint32_t region)
 {
     const plan_region *r = &w->plan.regions.at[region];
-    emit_line(w, "if (!rest && rows > 1) {");
-    w->depth++;
+    OPEN(w, "if (!rest && rows > 1) {");
     EACH_SUM(k, r)
     {
         emit_line(w, "reals v%u[8 / WIDTH];", k);
@@ -96,8 +89,7 @@ static void write_pairs_by_eights(writer *w, uint32_t region)
     }
     emit_line(w, "for (; m1 + 8 <= n1; m1 += 8)");
     emit_line(w, "#pragma GCC unroll 8");
-    emit_line(w, "for (int k = 0; k < 8 / WIDTH; k++) {");
-    w->depth++;
+    OPEN(w, "for (int k = 0; k < 8 / WIDTH; k++) {");
     emit_line(w, "const int64_t j1 = f1 + m1 + k * WIDTH;");
     w->along = 1;
     w->skips = true;
@@ -105,12 +97,10 @@ static void write_pairs_by_eights(writer *w, uint32_t region)
     emit_pair_others(w, region);
     w->along = -1;
     w->skips = false;
-    w->depth--;
-    emit_line(w, "}");
+    CLOSE(w);
     EACH_SUM(k, r)
     emit_line(w, "for (int k = 0; k < 8 / WIDTH; k++) index_store(&s%u[k * WIDTH], v%u[k]);", k, k);
-    w->depth--;
-    emit_line(w, "}");
+    CLOSE(w);
     w->e->uses_vectors = true;
 }
 
@@ -140,18 +130,14 @@ static void write_pair_sums(writer *w, uint32_t region)
         emit_line(w, "for (int64_t k = 0; k < rows; k++) s%u[k] = own[(%u * rows + k) * c1 + i1];", k, c++);
         w->plan.items.at[k].reg = 0; /* it has been written */
     }
-    emit_line(w, "{");
-    w->depth++;
+    OPEN(w, "{");
     emit_line(w, "int64_t m1 = i1 + 1;");
-    emit_line(w, "for (int rest = 0; rest <= (rows > 1); rest++) {");
-    w->depth++;
+    OPEN(w, "for (int rest = 0; rest <= (rows > 1); rest++) {");
     emit_line(w, "const int64_t up = (m1 + 7) & ~(int64_t)7, e1 = rest || rows == 1 || up > n1 ? n1 : up;");
     write_pairs_one_by_one(w, region);
     if (w->e->vectors) write_pairs_by_eights(w, region);
-    w->depth--;
-    emit_line(w, "}");
-    w->depth--;
-    emit_line(w, "}");
+    CLOSE(w);
+    CLOSE(w);
     w->region = around;
     w->skips = skipping;
     EACH_SUM(k, r)
@@ -181,24 +167,20 @@ static void write_sum(writer *w, uint32_t region)
         emit_line(w, emit_wide(w, w->plan.items.at[k].n) ? "reals s%u[8] = {{0}};" : "double s%u[8] = {0};", k);
         w->plan.items.at[k].reg = 0; /* it has been written */
     }
-    emit_line(w, "{");
-    w->depth++;
+    OPEN(w, "{");
     emit_line(w, "const int64_t f%d = %s, n%d = %s - f%d + 1;", level, first, level, last, level);
     emit_line(w, "int64_t m%d = 0;", level);
     if (!r->holds_sums) /* a body without sums is cheap to write twice */
         write_eights(w, region);
-    emit_line(w, "for (; m%d < n%d; m%d++) {", level, level, level);
-    w->depth++;
+    OPEN(w, "for (; m%d < n%d; m%d++) {", level, level, level);
     emit_line(w, "const int64_t j%d = f%d + m%d, k = n%d > 16 ? m%d & 7 : 0;", level, level, level, level, level);
     w->skips = emit_leaves_out(w, r, equal);
     if (w->skips) emit_line(w, "if (j%d == j%d) continue;", equal[0], equal[1]);
     emit_region(w, region);
     w->skips = skipping;
     w->region = around;
-    w->depth--;
-    emit_line(w, "}");
-    w->depth--;
-    emit_line(w, "}");
+    CLOSE(w);
+    CLOSE(w);
     EACH_SUM(k, r)
     emit_total(w, k, emit_type(w, w->plan.items.at[k].n), first, last);
 }
@@ -213,18 +195,14 @@ static bool lies_in(const writer *w, uint32_t inner, uint32_t region)
  * their sums, and over every cell by itself. */
 static void write_pairs(writer *w, uint32_t region, uint32_t pairs, const char *first, const char *last)
 {
-    emit_line(w, "if (own && j0 == %s && e0 == %s) {", first, last);
-    w->depth++;
+    OPEN(w, "if (own && j0 == %s && e0 == %s) {", first, last);
     start_pairs(w, pairs);
-    emit_line(w, "for (; j0 <= e0; j0++) {");
-    w->depth++;
+    OPEN(w, "for (; j0 <= e0; j0++) {");
     w->pairs = pairs;
     emit_region(w, region);
     w->pairs = NONE;
-    w->depth--;
-    emit_line(w, "}");
-    w->depth--;
-    emit_line(w, "}");
+    CLOSE(w);
+    CLOSE(w);
     /* the sums are written once more */
     for (uint32_t k = 0; k < w->plan.items.count; k++)
         if (plan_inside(&w->plan, &w->plan.items.at[k]) != NONE && lies_in(w, w->plan.items.at[k].region, region))
@@ -243,8 +221,7 @@ static void write_loop(writer *w, uint32_t region)
     }
     emit_bound(w, &r->range.first, first);
     emit_bound(w, &r->range.last, last);
-    emit_line(w, "{");
-    w->depth++;
+    OPEN(w, "{");
     emit_line(w,
               level == 0 && w->e->windowed ? "int64_t j%d = window_later(%s, from), e%d = window_sooner(%s, to - 1);"
                                            : "int64_t j%d = %s, e%d = %s;",
@@ -253,13 +230,11 @@ static void write_loop(writer *w, uint32_t region)
     if (pairs != NONE) write_pairs(w, region, pairs, first, last);
     if (w->e->vectors && r->innermost && !r->holds_sums) {
         w->e->uses_vectors = true;
-        emit_line(w, "for (; j%d + WIDTH - 1 <= e%d; j%d += WIDTH) {", level, level, level);
-        w->depth++;
+        OPEN(w, "for (; j%d + WIDTH - 1 <= e%d; j%d += WIDTH) {", level, level, level);
         w->along = level;
         emit_region(w, region);
         w->along = -1;
-        w->depth--;
-        emit_line(w, "}");
+        CLOSE(w);
         emit_line(w, "for (; j%d <= e%d; j%d++) {", level, level, level);
         emit_line(w, "    INDEX_REST;");
     } else {
@@ -267,10 +242,8 @@ static void write_loop(writer *w, uint32_t region)
     }
     w->depth++;
     emit_region(w, region);
-    w->depth--;
-    emit_line(w, "}");
-    w->depth--;
-    emit_line(w, "}");
+    CLOSE(w);
+    CLOSE(w);
     w->region = around;
 }
 

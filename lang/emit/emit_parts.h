@@ -52,6 +52,8 @@ typedef struct shared_value {
 #define EACH_SUM(k, r) for (uint32_t k = (r)->sums; k != NONE; k = w->plan.sums.at[w->plan.items.at[k].sum].next)
 #define SAY(w, ...) emit_add(&(w)->e->text, __VA_ARGS__)
 void emit_line(writer *, const char *format, ...) __attribute__((format(printf, 2, 3)));
+#define OPEN(w, ...) (emit_line(w, __VA_ARGS__), (void)(w)->depth++) /* a line that ends in { */
+#define CLOSE(w) ((void)(w)->depth--, emit_line(w, "}"))
 
 enum { PLACE_MAX = 320 };
 /* Returns whether a number that differs between lanes lies in an array of the pool. */

@@ -79,13 +79,7 @@ static uint32_t integer(writer *w, const emit_int *want)
     emit *e = w->e;
     for (uint32_t k = 0; k < e->int_count; k++)
         if (same_int(&e->ints[k], want)) return k;
-    if (e->int_count == e->int_room) {
-        uint32_t room = e->int_room ? 2 * e->int_room : 32;
-        emit_int *more = arena_grow(e->text.arena, e->ints, e->int_room * sizeof *more, room * sizeof *more);
-        if (!more) return 0;
-        e->ints = more;
-        e->int_room = room;
-    }
+    if (!arena_more(e->text.arena, &e->ints, e->int_count, &e->int_room, sizeof *e->ints)) return 0;
     e->ints[e->int_count] = *want;
     return e->int_count++;
 }

@@ -103,8 +103,7 @@ typedef struct inner_sum {
 
 static void write_inner(writer *w, const inner_sum *sums, int count)
 {
-    emit_line(w, "if (n > 3) {");
-    w->depth++;
+    OPEN(w, "if (n > 3) {");
     emit_line(w, "const int half = n / 2;");
     for (int k = 0; k < count; k++) {
         const inner_sum *s = &sums[k];
@@ -112,19 +111,16 @@ static void write_inner(writer *w, const inner_sum *sums, int count)
         if (!s->square) emit_line(w, "real q%d = p%d;", k, k);
     }
     if (!in_lanes(w)) emit_line(w, "#pragma GCC unroll 2");
-    emit_line(w, "for (int m = (n - 1) / 2, k = n - m; m >= 2; m--, k++) {");
-    w->depth++;
+    OPEN(w, "for (int m = (n - 1) / 2, k = n - m; m >= 2; m--, k++) {");
     for (int k = 0; k < count; k++) {
         const inner_sum *s = &sums[k];
         emit_line(w, "p%d = SERIES_FMA(%s[m], %s[k], p%d);", k, s->f, s->g, k);
         if (!s->square) emit_line(w, "q%d = SERIES_FMA(%s[k], %s[m], q%d);", k, s->f, s->g, k);
     }
-    w->depth--;
-    emit_line(w, "}");
+    CLOSE(w);
     for (int k = 0; k < count; k++)
         emit_line(w, "i%u[%d] = p%d + %c%d;", sums[k].item, sums[k].k, k, sums[k].square ? 'p' : 'q', k);
-    w->depth--;
-    emit_line(w, "}");
+    CLOSE(w);
 }
 
 /* Writes the inner sums of a region, as many in one loop as registers hold. */
@@ -292,8 +288,6 @@ static void write_item(writer *w, uint32_t item)
 
 static void write_region(writer *w, uint32_t region);
 
-#define EACH_SUM(k, r) for (uint32_t k = (r)->sums; k != NONE; k = w->plan.sums.at[w->plan.items.at[k].sum].next)
-
 static void write_update(writer *w, uint32_t item)
 {
     const plan_item *update = &w->plan.items.at[item];
@@ -371,8 +365,7 @@ static void write_pairs(writer *w, uint32_t family, const char *first, const cha
     write_cells(w, f);
     write_cells(w, r);
     emit_line(w, "int64_t i0 = 0, i1 = 1;");
-    emit_line(w, "for (int64_t j = 0; j < n0 * (n0 - 1) / 2; j += WIDTH) {");
-    w->depth++;
+    OPEN(w, "for (int64_t j = 0; j < n0 * (n0 - 1) / 2; j += WIDTH) {");
     write_which(w);
     emit_line(w, "real *const pair = p;");
     emit_line(w, "p += %u;", w->pair_frame);
@@ -393,8 +386,7 @@ static void write_pairs(writer *w, uint32_t family, const char *first, const cha
         if (w->shared[item].role < PAIR) continue;
         write_operation(w, item, &w->plan.g->nodes[w->plan.items.at[item].n]);
     }
-    emit_line(w, "for (int l = 0; l < lanes; l++) {");
-    w->depth++;
+    OPEN(w, "for (int l = 0; l < lanes; l++) {");
     for (uint32_t k = 0; k < r->item_count; k++) {
         const uint32_t item = w->plan.order[r->items + k], front = w->shared[item].front;
         if (w->shared[item].role != FRONT) continue;
@@ -402,11 +394,9 @@ static void write_pairs(writer *w, uint32_t family, const char *first, const cha
         emit_line(w, "both[(%u * n0 + a0[l]) * v0 * WIDTH + a1[l]] = %sLANE_OF(z%u[n], l);", front,
                   emit_is_odd(w, w->plan.items.at[item].n) ? "-" : "", item);
     }
-    w->depth--;
-    emit_line(w, "}");
+    CLOSE(w);
     w->in_pairs = false;
-    w->depth--;
-    emit_line(w, "}");
+    CLOSE(w);
 }
 
 /* Writes a loop over a family's index, WIDTH values at a time; `lanes` of them are in the family, and the others repeat
@@ -421,24 +411,20 @@ static void write_wide_loop(writer *w, uint32_t region)
     emit_bound(w, &r->range.last, last);
     const bool shares = emit_series_shares(w, region);
     if (shares) {
-        emit_line(w, "{");
-        w->depth++;
+        OPEN(w, "{");
         write_pairs(w, region, first, last);
     }
-    emit_line(w, "for (int64_t j%d = %s, e%d = %s; j%d <= e%d; j%d += WIDTH) {", level, first, level, last, level,
-              level, level);
-    w->depth++;
+    OPEN(w, "for (int64_t j%d = %s, e%d = %s; j%d <= e%d; j%d += WIDTH) {", level, first, level, last, level, level,
+         level);
     emit_line(w, "const int lanes = e%d - j%d + 1 < WIDTH ? (int)(e%d - j%d) + 1 : WIDTH;", level, level, level, level);
     w->along = level, w->one_by_one = true;
     write_region(w, region);
     w->along = -1, w->one_by_one = false;
     w->region = around;
-    w->depth--;
-    emit_line(w, "}");
+    CLOSE(w);
     if (shares) {
         w->shared = NULL;
-        w->depth--;
-        emit_line(w, "}");
+        CLOSE(w);
     }
 }
 
@@ -459,19 +445,15 @@ static void write_loop(writer *w, uint32_t region)
         emit_line(w, in_lanes(w) ? "real s%u[8] = {{0}};" : "real s%u[8] = {0};", k);
         w->plan.items.at[k].reg = 0; /* it has been written */
     }
-    emit_line(w, "{");
-    w->depth++;
+    OPEN(w, "{");
     emit_line(w, "const int64_t f%d = %s, n%d = %s - f%d + 1;", level, first, level, last, level);
-    emit_line(w, "for (int64_t m%d = 0; m%d < n%d; m%d++) {", level, level, level, level);
-    w->depth++;
+    OPEN(w, "for (int64_t m%d = 0; m%d < n%d; m%d++) {", level, level, level, level);
     emit_line(w, "const int64_t j%d = f%d + m%d, k = n%d > 16 ? m%d & 7 : 0;", level, level, level, level, level);
     emit_line(w, "(void)k;");
     write_region(w, region);
     w->region = around;
-    w->depth--;
-    emit_line(w, "}");
-    w->depth--;
-    emit_line(w, "}");
+    CLOSE(w);
+    CLOSE(w);
     EACH_SUM(k, r)
     emit_total(w, k, "real", first, last);
 }
@@ -566,10 +548,9 @@ void emit_series_pass(writer *w, const char *name)
 
 /* The recurrences -------------------------------------------------------------------------------------------------- */
 
-static void write_recurrence(emit_text *t, const char *prefix, int op, int keeps, const char *sums,
-                             const char *recurrence, const char *operands, const char *values)
+static void write_recurrence(emit_text *t, const char *prefix, int op, int keeps, const char *recurrence,
+                             const char *operands, const char *values)
 {
-    (void)sums;
     emit_add(t, "SERIES_FUNCTION void series_%d(real *r, %s, const int n, const real *in) { ", op, operands);
     if (!keeps) emit_add(t, "if (n == 0) r[0] = %s_%d(%s); else ", prefix, op, values);
     emit_add(t, "(void)in, r[n] = %s; }\n", recurrence);
@@ -582,11 +563,11 @@ bool emit_series_operations(emit *e, const char *prefix)
     if (e->used_series & OPERATION_BIT(id)) write_recurrence(t, prefix, OP_##id, __VA_ARGS__);
 #define LEAF(...)
 #define UNARY(id, spelling, degree, nature, value, derivative, keeps, sums, recurrence) \
-    ROW(id, keeps, sums, #recurrence, "const series a", "a.at[0]")
+    ROW(id, keeps, #recurrence, "const series a", "a.at[0]")
 #define BINARY(id, spelling, degree, nature, value, derivative, keeps, sums, recurrence) \
-    ROW(id, keeps, sums, #recurrence, "const series a, const series b", "a.at[0], b.at[0]")
+    ROW(id, keeps, #recurrence, "const series a, const series b", "a.at[0], b.at[0]")
 #define TERNARY(id, spelling, degree, nature, value, derivative, keeps, sums, recurrence) \
-    ROW(id, keeps, sums, #recurrence, "const series a, const series b, const series c", "a.at[0], b.at[0], c.at[0]")
+    ROW(id, keeps, #recurrence, "const series a, const series b, const series c", "a.at[0], b.at[0], c.at[0]")
 #include "lang/base/operations.def"
 #undef ROW
     return !e->text.arena->failed;

@@ -96,12 +96,8 @@ static node form(joining *j, uint32_t k)
     const graph_node n = j->from->nodes[j->w.nodes[k]];
     graph *g = j->to;
     node operand[3] = {0, 0, 0}, out;
+    if (graph_copy_leaf(j->from, &n, g, &out)) return out;
     switch (n.op) {
-    case OP_CONST: return graph_const(g, n.value);
-    case OP_TIME: return graph_time(g);
-    case OP_PARAM: return graph_param(g, n.a);
-    case OP_INDEX: return graph_index(g, n.level);
-    case OP_LOAD: return graph_load(g, &j->from->references[n.a]);
     case OP_SUM: return graph_sum(g, n.level, &j->from->ranges[n.c], n.b ? image(j, n.b) : 0, image(j, n.a));
     case OP_MUL:
     case OP_DIV:

@@ -251,6 +251,18 @@ node graph_load(graph *g, const reference *of)
     return share(g, (graph_node){.op = OP_LOAD, .deps = (uint16_t)deps}, ref, NULL);
 }
 
+bool graph_copy_leaf(const graph *from, const graph_node *n, graph *to, node *out)
+{
+    switch (n->op) {
+    case OP_CONST: return *out = graph_const(to, n->value), true;
+    case OP_TIME: return *out = graph_time(to), true;
+    case OP_PARAM: return *out = graph_param(to, n->a), true;
+    case OP_INDEX: return *out = graph_index(to, n->level), true;
+    case OP_LOAD: return *out = graph_load(to, &from->references[n->a]), true;
+    default: return false;
+    }
+}
+
 node graph_sum(graph *g, int level, const range *r, node condition, node body)
 {
     unsigned deps = g->nodes[body].deps | g->nodes[condition].deps;

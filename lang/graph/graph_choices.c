@@ -82,15 +82,9 @@ node graph_choices(graph *g, node root)
     graph_order_again(g, &w);
     for (uint32_t k = 0; as && k < w.count && !g->arena->failed && !g->too_large; k++) {
         const graph_node n = g->nodes[w.nodes[k]];
-        node operand[3] = {0, 0, 0};
-        const int arity = graph_operands(&n, operand);
-        bool same = n.op != OP_SELECT;
-        if (arity == 0 || n.op == OP_SUM) continue;
-        for (int j = 0; j < arity; j++) {
-            const node was = operand[j];
-            if (graph_reached(g, &w, was)) operand[j] = as[g->place[was]];
-            same &= operand[j] == was;
-        }
+        node operand[3];
+        bool same;
+        if (n.op == OP_SUM || !graph_operands_as(g, &w, &n, as, operand, &same)) continue;
         if (n.op == OP_SELECT)
             as[k] = choose(g, operand[0], operand[1], operand[2]);
         else if (!same)

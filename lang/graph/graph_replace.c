@@ -39,16 +39,9 @@ static node replaced(graph *g, node root, int level, const replacing *how)
     graph_order_again(g, &w);
     for (uint32_t k = 0; as && k < w.count && !g->arena->failed && !g->too_large; k++) {
         const graph_node n = g->nodes[w.nodes[k]];
-        node operand[3] = {0, 0, 0};
-        const int arity = graph_operands(&n, operand);
-        bool same = true;
-        if (arity == 0 || n.op == OP_SUM) continue;
-        for (int j = 0; j < arity; j++) {
-            const node was = operand[j];
-            if (graph_reached(g, &w, was)) operand[j] = as[g->place[was]];
-            same &= operand[j] == was;
-        }
-        if (same) continue;
+        node operand[3];
+        bool same;
+        if (n.op == OP_SUM || !graph_operands_as(g, &w, &n, as, operand, &same) || same) continue;
         as[k] = graph_op(g, (operation)n.op, operand[0], operand[1], operand[2]);
     }
     const node result = as && w.count ? as[w.count - 1] : 0;

@@ -22,6 +22,24 @@ static inline bool graph_reached(const graph *g, const graph_walk *w, node n)
     return g->place[n] < w->count && w->nodes[g->place[n]] == n;
 }
 
+/* Returns how many operands a node of a walk has, with `as` in place of those that were reached; *same: none
+ * differs. */
+static inline int graph_operands_as(const graph *g, const graph_walk *w, const graph_node *n, const node *as,
+                                    node operand[3], bool *same)
+{
+    const int arity = graph_operands(n, operand);
+    *same = true;
+    for (int j = 0; j < arity; j++) {
+        const node was = operand[j];
+        if (graph_reached(g, w, was)) operand[j] = as[g->place[was]];
+        *same &= operand[j] == was;
+    }
+    return arity;
+}
+
+/* graph.c: copies a CONST, TIME, PARAM, INDEX or LOAD to another graph; false: the node is none. */
+bool graph_copy_leaf(const graph *from, const graph_node *, graph *to, node *out);
+
 /* graph_derivative.c: returns the derivative of an operation, from those of its operands, by its row of
  * operations.def. */
 node graph_derivative_rule(graph *, const graph_node *, node self, const node slope[3]);

@@ -6,6 +6,8 @@
 #include "lang/graph/plan.h"
 #include "lang/graph/graph_walk.h"
 
+#include <string.h>
+
 enum { MANY = 1 << 14 };
 
 void *plan_room(plan *p, void *at, uint32_t count, uint32_t *capacity, size_t size)
@@ -31,6 +33,14 @@ void *plan_reserve(plan *p, size_t wanted, uint32_t *capacity, size_t size)
     else if (wanted)
         p->failed = true;
     return room;
+}
+
+void *plan_kept(const plan *p, arena *a, void *rows, size_t count, size_t size)
+{
+    void *copy = arena_room(a, (count + !count) * size);
+    if (copy && count) memcpy(copy, rows, count * size);
+    give(p->hooks, rows);
+    return copy;
 }
 
 #define DROP(p, part) (give((p)->hooks, part), (part) = NULL)

@@ -74,6 +74,10 @@ void *plan_room(plan *, void *at, uint32_t count, uint32_t *capacity, size_t siz
 #define RESERVE(p, list, wanted) ((list).at = plan_reserve(p, wanted, &(list).capacity, sizeof *(list).at))
 void *plan_reserve(plan *, size_t wanted, uint32_t *capacity, size_t size);
 
+/* Copies a list of which no more elements follow to an arena, and gives the list back. */
+#define KEPT(p, a, list) plan_kept(p, a, (list).at, (list).count, sizeof *(list).at)
+void *plan_kept(const plan *, arena *, void *rows, size_t count, size_t size);
+
 bool plan_create(plan *, arena *, const program *, bool blocks);
 void plan_release(plan *);
 void plan_release_items(plan *); /* gives back everything but the regions, once all is written */

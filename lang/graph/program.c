@@ -83,12 +83,9 @@ static node form(forming *f, node old)
 {
     const graph_node *n = &f->from->nodes[old];
     graph *g = f->to;
+    node leaf;
+    if (graph_copy_leaf(f->from, n, g, &leaf)) return leaf;
     switch (n->op) {
-    case OP_CONST: return graph_const(g, n->value);
-    case OP_TIME: return graph_time(g);
-    case OP_PARAM: return graph_param(g, n->a);
-    case OP_INDEX: return graph_index(g, n->level);
-    case OP_LOAD: return graph_load(g, &f->from->references[n->a]);
     case OP_SUM: return form_sum(f, n);
     case OP_ADD:
     case OP_SUB: {

@@ -27,10 +27,8 @@ bool hull_mark(model *m, const model_state *s, const statement *from, const int6
 {
     int64_t at[MAX_DIMS];
     for (int d = 0; d < s->dims; d++) at[d] = first[d];
-    for (;;) {
-        size_t offset = 0;
-        for (int d = 0; d < s->dims; d++)
-            offset = offset * (size_t)(s->last[d] - s->first[d] + 1) + (size_t)(at[d] - s->first[d]);
+    do {
+        const size_t offset = model_cell(s->dims, s->first, s->last, at);
         if (once && map[offset]) {
             char name[MOTUS_NAME_MAX + 64];
             model_state_name(s, offset, 0, false, name, sizeof name);
@@ -40,13 +38,8 @@ bool hull_mark(model *m, const model_state *s, const statement *from, const int6
             return false;
         }
         if (map[offset] < as) map[offset] = as;
-        int d = s->dims - 1;
-        while (d >= 0 && ++at[d] > last[d]) {
-            at[d] = first[d];
-            d--;
-        }
-        if (d < 0) return true;
-    }
+    } while (model_next_cell(s->dims, first, last, at));
+    return true;
 }
 
 static bool gather_hull(model *m, model_state *s, bool boundary)

@@ -22,13 +22,7 @@ bool lower_no_matrix(lowering *l, const value *v, const tree *t)
 value lower_factor(lowering *l, const tree *t)
 {
     model *m = l->model;
-    if (m->depth == MODEL_DEPTH_MAX) {
-        source_complain(&m->source, MOTUS_LIMIT, &t->at,
-                        "brackets and definitions within one another are more than %d deep", MODEL_DEPTH_MAX);
-        source_hint(&m->source, "use fewer brackets, or fewer definitions within definitions");
-        return wrong(l);
-    }
-    m->depth++;
+    if (!model_deeper(m, &t->at)) return wrong(l);
     value v = m->lower(l, t);
     m->depth--;
     return v;

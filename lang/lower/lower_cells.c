@@ -81,14 +81,8 @@ node lower_cell(differential *d, const reference *of)
     const reference by = m->graph->references[graph_at(m->graph, d->variable)->a];
     for (int k = 0; k < by.dims; k++)
         if (never_equal(&of->at[k], &by.at[k])) return 0;
-    if (d->cell_count == d->cell_room) {
-        const uint32_t room = d->cell_room ? 2 * d->cell_room : 8;
-        cell *more = arena_grow(m->arena, d->cells, d->cell_room * sizeof *more, room * sizeof *more);
-        if (!more) return 0;
-        if (!d->cell_room) d->first_leaf = m->leaf_count;
-        d->cells = more;
-        d->cell_room = room;
-    }
+    if (!d->cell_room) d->first_leaf = m->leaf_count;
+    if (!arena_more(m->arena, &d->cells, d->cell_count, &d->cell_room, sizeof *d->cells)) return 0;
     d->cells[d->cell_count] = (cell){lower_own_leaf(d->l), *of};
     return d->cells[d->cell_count++].leaf;
 }

@@ -235,6 +235,27 @@ bool lower_range(lowering *l, const loop *loop, range *out, int64_t *low, int64_
     return true;
 }
 
+/* Complains about a range that is empty, or too long for a family. */
+static bool fitting_range(lowering *l, const loop *loop, int64_t low, int64_t high)
+{
+    source *s = &l->model->source;
+    if (low > high)
+        source_complain(s, MOTUS_ARGUMENT, &loop->at, "the index %s runs over nothing: from %lld to %lld", loop->name,
+                        (long long)low, (long long)high);
+    else if ((double)high - (double)low >= MODEL_NUMBERS_MAX)
+        source_complain(s, MOTUS_LIMIT, &loop->at, "%.0f places are more than the %d that fit",
+                        (double)high - (double)low + 1, MODEL_NUMBERS_MAX);
+    return !failed(l);
+}
+
+static bool fitting_places(lowering *l, span at)
+{
+    if (l->terms > MODEL_NUMBERS_MAX)
+        source_complain(&l->model->source, MOTUS_LIMIT, &at, "%.0f places are more than the %d that fit", l->terms,
+                        MODEL_NUMBERS_MAX);
+    return !failed(l);
+}
+
 bool lower_is_index(const lowering *l, const char *name) { return lower_find_index(l, name) != NULL; }
 
 bool lower_loops(lowering *l, const loop *loops, uint32_t count, range *out)
@@ -242,20 +263,11 @@ bool lower_loops(lowering *l, const loop *loops, uint32_t count, range *out)
     for (uint32_t k = 0; k < count; k++) {
         int64_t low, high;
         if (!lower_range(l, &loops[k], &out[k], &low, &high)) return false;
-        if (low > high) {
-            source_complain(&l->model->source, MOTUS_ARGUMENT, &loops[k].at,
-                            "the index %s runs over nothing: from %lld to %lld", loops[k].name, (long long)low,
-                            (long long)high);
+        if (!fitting_range(l, &loops[k], low, high) || !lower_add_index(l, &loops[k], l->levels, low, high))
             return false;
-        }
-        if (!lower_add_index(l, &loops[k], l->levels, low, high)) return false;
         l->levels++;
         l->terms *= (double)(high - low + 1);
-        if (l->terms > MODEL_NUMBERS_MAX) {
-            source_complain(&l->model->source, MOTUS_LIMIT, &loops[k].at, "%.0f places are more than the %d that fit",
-                            l->terms, MODEL_NUMBERS_MAX);
-            return false;
-        }
+        if (!fitting_places(l, loops[k].at)) return false;
     }
     return !failed(l);
 }
@@ -292,18 +304,7 @@ bool lower_target(lowering *l, const statement *s, output *out)
         lowering plain;
         lower_start(&plain, l->model, PLACE_CONSTANT, "a bound");
         if (!lower_range(&plain, &s->loops[which], &r, &low, &high)) return false;
-        if (low > high) {
-            source_complain(&l->model->source, MOTUS_ARGUMENT, &s->loops[which].at,
-                            "the index %s runs over nothing: from %lld to %lld", s->loops[which].name, (long long)low,
-                            (long long)high);
-            return false;
-        }
-        if ((double)high - (double)low >= MODEL_NUMBERS_MAX) {
-            source_complain(&l->model->source, MOTUS_LIMIT, &s->loops[which].at,
-                            "%.0f places are more than the %d that fit", (double)high - (double)low + 1,
-                            MODEL_NUMBERS_MAX);
-            return false;
-        }
+        if (!fitting_range(l, &s->loops[which], low, high)) return false;
         out->loop[out->loops] = r;
         out->to.at[d] = (subscript){.level = (int8_t)out->loops, .slot = -1, .modulus = -1};
         if (!lower_add_index(l, &s->loops[which], out->loops, low, high)) return false;
@@ -317,12 +318,7 @@ bool lower_target(lowering *l, const statement *s, output *out)
             HINT(l, "write %s[%s] … or remove the for", s->name, s->loops[k].name);
             return false;
         }
-    if (l->terms > MODEL_NUMBERS_MAX) {
-        source_complain(&l->model->source, MOTUS_LIMIT, &s->at, "%.0f places are more than the %d that fit", l->terms,
-                        MODEL_NUMBERS_MAX);
-        return false;
-    }
-    return !failed(l);
+    return fitting_places(l, s->at);
 }
 
 void lower_extent(const model *m, const lowering *l, const output *o, int64_t first[], int64_t last[])

@@ -49,16 +49,9 @@ static bool covered(lowering *l, const model_state *s, const tree *t, const int6
     }
     if (empty) return true;
     while (!outside) {
-        size_t offset = 0;
-        for (int d = 0; d < s->dims; d++)
-            offset = offset * (size_t)(s->last[d] - s->first[d] + 1) + (size_t)(at[d] - s->first[d]);
+        const size_t offset = model_cell(s->dims, s->first, s->last, at);
         if (!s->owner[offset] || (derivative && s->owner[offset] != 1)) break;
-        int d = s->dims - 1;
-        while (d >= 0 && ++at[d] > high[d]) {
-            at[d] = low[d];
-            d--;
-        }
-        if (d < 0) return true;
+        if (!model_next_cell(s->dims, low, high, at)) return true;
     }
     char index[80] = "";
     size_t n = 0;
@@ -243,8 +236,7 @@ static value lower_quantity_family(lowering *l, const tree *t, model_definition 
             inner.name_count++;
         }
     }
-    value v = lower_expression(&inner, s->value);
-    return v;
+    return lower_expression(&inner, s->value);
 }
 
 static value lower_definition(lowering *l, const tree *t, model_definition *d)

@@ -236,19 +236,12 @@ static bool mark_line(model *m, const model_definition *d, const statement *line
     lower_extent(m, &l, &o, first, last);
     const uint8_t rank = (uint8_t)rank_of(line, &o);
     memcpy(at, first, sizeof at);
-    for (;;) {
-        size_t place = 0;
-        for (int k = 0; k < d->dims; k++)
-            place = place * (size_t)(d->last[k] - d->first[k] + 1) + (size_t)(at[k] - d->first[k]);
+    do {
+        const size_t place = model_cell(d->dims, d->first, d->last, at);
         if (map[place] == rank) return name_place(m, d, line->at, place, "is defined twice");
         if (map[place] < rank) map[place] = rank;
-        int k = d->dims - 1;
-        while (k >= 0 && ++at[k] > last[k]) {
-            at[k] = first[k];
-            k--;
-        }
-        if (k < 0) return true;
-    }
+    } while (model_next_cell(d->dims, first, last, at));
+    return true;
 }
 
 static bool family_map(model *m, const model_definition *d, size_t hull, uint8_t **map)
@@ -274,10 +267,7 @@ static bool family_lines(model *m, model_definition *d, int rank, const uint8_t 
         if (!open_line(m, d, line, &l, &o)) return false;
         if (rank_of(line, &o) != rank) continue;
         lower_extent(m, &l, &o, first, last);
-        size_t place = 0;
-        for (int k = 0; k < d->dims; k++)
-            place = place * (size_t)(d->last[k] - d->first[k] + 1) + (size_t)(first[k] - d->first[k]);
-        if (rank == RANK_CELL && map[place] == RANK_SET) continue;
+        if (rank == RANK_CELL && map[model_cell(d->dims, d->first, d->last, first)] == RANK_SET) continue;
         value v = lower_expression(&l, line->value);
         if (failed(m)) return false;
         if (v.boolean || v.count != d->components) {

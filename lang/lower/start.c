@@ -47,15 +47,14 @@ static bool give_shape(model *m, model_state *s, const statement *one, int compo
 /* Evaluates a line into the pool; copies constants. */
 static bool run_line(model *m, model_state *s, const statement *one, const output *o, value v)
 {
-    size_t base = m->arrays[s->start_array[one->primes]].base, cell = 0;
-    int64_t at;
+    size_t base = m->arrays[s->start_array[one->primes]].base;
+    int64_t at[MAX_DIMS];
     bool known = o->loops == 0;
     for (int k = 0; k < (v.count ? v.count : 1); k++) known &= graph_at(m->graph, v.item[k])->op == OP_CONST;
     if (!known) return evaluate_into_pool(m, o, v.item, v.count ? v.count : 1, base, s->first, s->last, s->hull);
-    for (int d = 0; d < s->dims; d++) {
-        at = o->to.at[d].literal + (o->to.at[d].slot >= 0 ? m->ints[o->to.at[d].slot] : 0);
-        cell = cell * (size_t)(s->last[d] - s->first[d] + 1) + (size_t)(at - s->first[d]);
-    }
+    for (int d = 0; d < s->dims; d++)
+        at[d] = o->to.at[d].literal + (o->to.at[d].slot >= 0 ? m->ints[o->to.at[d].slot] : 0);
+    const size_t cell = model_cell(s->dims, s->first, s->last, at);
     for (int k = 0; k < (v.count ? v.count : 1); k++)
         m->pool[base + (size_t)k * s->hull + cell] = graph_at(m->graph, v.item[k])->value;
     return true;
@@ -118,16 +117,14 @@ static bool start_line(model *m, model_state *s, statement *one)
     m->start_depth--;
     int64_t first[MAX_DIMS], last[MAX_DIMS];
     lower_extent(m, &l, &o, first, last);
-    size_t cell = 0;
-    for (int d = 0; d < s->dims; d++) {
+    for (int d = 0; d < s->dims; d++)
         if (first[d] < s->first[d] || last[d] > s->last[d]) {
             source_complain(&m->source, MOTUS_NAME, &one->at,
                             "%s has an initial value at index %lld, but no equation there", s->name,
                             (long long)(first[d] < s->first[d] ? first[d] : last[d]));
             return false;
         }
-        cell = cell * (size_t)(s->last[d] - s->first[d] + 1) + (size_t)(first[d] - s->first[d]);
-    }
+    const size_t cell = model_cell(s->dims, s->first, s->last, first);
     uint8_t *map = s->start_map[one->primes];
     uint8_t rank = one->at.text > 0 ? START_OF_SET : one->loop_count > 0 ? START_OF_FAMILY : START_OF_CELL;
     one->progress = 2;
@@ -202,13 +199,9 @@ static bool own_lines(model *m, model_state *s, int primes)
         lower_start(&l, m, PLACE_CONSTANT, "an index");
         if (!lower_target(&l, one, &o)) return false;
         lower_extent(m, &l, &o, first, last);
-        size_t cell = 0;
         bool inside = true;
-        for (int d = 0; d < s->dims; d++) {
-            inside &= first[d] >= s->first[d] && first[d] <= s->last[d];
-            cell = cell * (size_t)(s->last[d] - s->first[d] + 1) + (size_t)(first[d] - s->first[d]);
-        }
-        if (inside) s->start_own[primes][cell] = i;
+        for (int d = 0; d < s->dims; d++) inside &= first[d] >= s->first[d] && first[d] <= s->last[d];
+        if (inside) s->start_own[primes][model_cell(s->dims, s->first, s->last, first)] = i;
     }
     return true;
 }
@@ -230,12 +223,9 @@ bool start_cells(model *m, model_state *s, int primes, const int64_t low[], cons
     if (s->start_done) return true;
     if (!start_maps(m, s)) return false;
     if (primes && !suppose_rest(m, s)) return false;
-    size_t cell = 0;
+    const size_t cell = model_cell(s->dims, s->first, s->last, low);
     bool single = true;
-    for (int d = 0; d < s->dims; d++) {
-        single &= low[d] == high[d];
-        cell = cell * (size_t)(s->last[d] - s->first[d] + 1) + (size_t)(low[d] - s->first[d]);
-    }
+    for (int d = 0; d < s->dims; d++) single &= low[d] == high[d];
     if (!single) return start_lines(m, s, primes, true) && (s->shaped || start_missing(m, s, primes, 0));
     for (uint32_t i = m->source.count > 1 ? s->line : 0; i; i = m->statements.item[i - 1].next) {
         statement *one = &m->statements.item[i - 1]; /* families of --set, but none that is being computed */

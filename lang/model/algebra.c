@@ -27,16 +27,8 @@ poly algebra_lose(algebra *A)
 /* Makes room for one more element of a list, which doubles. False: no memory, or no work is left. */
 static bool grow(algebra *A, void *list, uint32_t count, uint32_t *room, size_t size)
 {
-    if (A->lost || --A->work < 0) return A->lost = true, false;
-    if (count < *room) return true;
-    void *old;
-    memcpy(&old, list, sizeof old);
-    const uint32_t more = *room ? 2 * *room : 64;
-    void *now = arena_grow(&A->arena, old, count * size, more * size);
-    if (!now) return A->lost = true, false;
-    memcpy(list, &now, sizeof now);
-    *room = more;
-    return true;
+    if (A->lost || --A->work < 0 || !arena_more(&A->arena, list, count, room, size)) A->lost = true;
+    return !A->lost;
 }
 
 static uint32_t mixed(uint32_t h, uint32_t x)

@@ -27,6 +27,8 @@ typedef struct form {
 
 static form form_of(const reader *r, poly p, int depth);
 
+static form both(form a, form b) { return (form){a.moves || b.moves, a.pole || b.pole, a.rough || b.rough}; }
+
 /* Finds the places that a polynomial reads outside functions, at most PLACES_MAX. */
 static int places_of(const reader *r, poly p, uint32_t places[PLACES_MAX])
 {
@@ -85,11 +87,8 @@ static bool apart_base(const reader *r, uint32_t atom)
 /* Returns the form of the function that an atom is, apart from its power. */
 static form form_of_function(const reader *r, const algebra_atom *a, int depth)
 {
-    form f = form_of(r, a->a, depth + 1);
-    const form second = form_of(r, a->b, depth + 1);
-    f.moves |= second.moves;
-    f.pole |= second.pole;
-    f.rough |= second.rough;
+    const form first = form_of(r, a->a, depth + 1), second = form_of(r, a->b, depth + 1);
+    form f = both(first, second);
     if (!f.moves || a->op == OP_POW) return f;
     f.rough |= f.pole;
     switch ((operation)a->op) {
@@ -135,12 +134,7 @@ static form form_of_term(const reader *r, uint32_t of, int depth)
 {
     const algebra_monomial m = r->algebra->monomials[of];
     form all = {false, false, false};
-    for (uint32_t k = 0; k < m.count; k++) {
-        const form f = form_of_power(r, r->algebra->powers[m.first + k], depth);
-        all.moves |= f.moves;
-        all.pole |= f.pole;
-        all.rough |= f.rough;
-    }
+    for (uint32_t k = 0; k < m.count; k++) all = both(all, form_of_power(r, r->algebra->powers[m.first + k], depth));
     return all;
 }
 
@@ -148,12 +142,8 @@ static form form_of(const reader *r, poly p, int depth)
 {
     form all = {false, false, false};
     if (depth > DEPTH_MAX) return (form){true, true, true};
-    for (uint32_t k = 0; k < r->algebra->polys[p].count; k++) {
-        const form f = form_of_term(r, r->algebra->polys[p].terms[k].of, depth);
-        all.moves |= f.moves;
-        all.pole |= f.pole;
-        all.rough |= f.rough;
-    }
+    for (uint32_t k = 0; k < r->algebra->polys[p].count; k++)
+        all = both(all, form_of_term(r, r->algebra->polys[p].terms[k].of, depth));
     return all;
 }
 

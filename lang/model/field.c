@@ -30,13 +30,10 @@ typedef struct field {
 static bool add_cell(field *f, const output *o, const int64_t *index)
 {
     algebra *A = &f->algebra;
-    if (f->cells == f->room) {
-        const uint32_t more = f->room ? 2 * f->room : 16;
-        f->place = arena_grow(&A->arena, f->place, f->room * sizeof *f->place, more * sizeof *f->place);
-        f->force = arena_grow(&A->arena, f->force, f->room * sizeof *f->force, more * sizeof *f->force);
-        f->room = more;
-        if (!f->place || !f->force) return false;
-    }
+    uint32_t room = f->room; /* both lists have it */
+    if (!arena_more(&A->arena, &f->place, f->cells, &room, sizeof *f->place) ||
+        !arena_more(&A->arena, &f->force, f->cells, &f->room, sizeof *f->force))
+        return false;
     f->place[f->cells] = graph_element(A->model->arrays, &o->to, index, A->model->ints);
     f->force[f->cells] = algebra_read(A, o->value, index);
     f->cells++;

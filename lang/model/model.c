@@ -3,6 +3,15 @@
 
 #include <stdio.h>
 
+/* Writes ".y" or "[5]". */
+static void name_component(int components, int k, char *out, size_t size)
+{
+    if (components <= 3)
+        snprintf(out, size, ".%c", "xyz"[k]);
+    else
+        snprintf(out, size, "[%d]", k + 1);
+}
+
 /* Writes "r[3,4]'.y"; component -1: the name of the whole vector, without ".y". */
 void model_state_name(const model_state *s, size_t cell, int component, bool prime, char *out, size_t size)
 {
@@ -17,12 +26,7 @@ void model_state_name(const model_state *s, size_t cell, int component, bool pri
         n += (size_t)snprintf(out + n, size - n, "%s%lld%s", d ? "," : "[", (long long)at[d],
                               d == s->dims - 1 ? "]" : "");
     if (prime && n < size) n += (size_t)snprintf(out + n, size - n, "'");
-    if (s->components && component >= 0 && n < size) {
-        if (s->components <= 3)
-            snprintf(out + n, size - n, ".%c", "xyz"[component]);
-        else
-            snprintf(out + n, size - n, "[%d]", component + 1);
-    }
+    if (s->components && component >= 0 && n < size) name_component(s->components, component, out + n, size - n);
 }
 
 void model_name(const model *m, bool in_v, size_t k, char *out, size_t size)
@@ -30,7 +34,7 @@ void model_name(const model *m, bool in_v, size_t k, char *out, size_t size)
     snprintf(out, size, "?");
     for (uint32_t i = 0; i < m->state_count + m->mode_count; i++) {
         const model_state *s = &m->states[i];
-        size_t n = s->hull * (size_t)(s->components ? s->components : 1);
+        size_t n = model_numbers(s);
         if ((!in_v && s->order == 1) || k < s->base || k >= s->base + n) continue;
         model_state_name(s, (k - s->base) % s->hull, (int)((k - s->base) / s->hull), in_v && s->order == 2, out, size);
         return;
@@ -67,14 +71,8 @@ static void name_parameter(const model *m, uint32_t slot, char *out, size_t size
 {
     const uint32_t owner = slot < m->scalar_slots ? m->slot_owner[slot] : 0;
     const model_definition *d = owner ? &m->definitions[owner - 1] : NULL;
-    if (!d)
-        snprintf(out, size, "?");
-    else if (!d->components)
-        snprintf(out, size, "%s", d->name);
-    else if (d->components <= 3)
-        snprintf(out, size, "%s.%c", d->name, "xyz"[slot - d->slot]);
-    else
-        snprintf(out, size, "%s[%u]", d->name, slot - d->slot + 1);
+    const size_t n = (size_t)snprintf(out, size, "%s", d ? d->name : "?");
+    if (d && d->components && n < size) name_component(d->components, (int)(slot - d->slot), out + n, size - n);
 }
 
 const model_state *model_state_of(const model *m, uint16_t array)
@@ -124,12 +122,7 @@ void model_reference_name(const model *m, const reference *r, char *out, size_t 
         if (d == r->dims - 1) n_ += (size_t)snprintf(out + n_, size - n_, "]");
     }
     if (n_ < size) n_ += (size_t)snprintf(out + n_, size - n_, "%s%s", primes, tail);
-    if (components && n_ < size) {
-        if (components <= 3)
-            snprintf(out + n_, size - n_, ".%c", "xyz"[component]);
-        else
-            snprintf(out + n_, size - n_, "[%d]", component + 1);
-    }
+    if (components && n_ < size) name_component(components, component, out + n_, size - n_);
 }
 
 static void name_leaf(void *model_, const graph_node *n, char *out, size_t size)

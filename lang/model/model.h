@@ -293,6 +293,25 @@ static inline size_t model_numbers(const model_state *s)
 {
     return s->hull * (size_t)(s->components ? s->components : 1);
 }
+/* Returns the number of a cell in a box of indices; the last index is contiguous. */
+static inline size_t model_cell(int dims, const int64_t first[], const int64_t last[], const int64_t at[])
+{
+    size_t cell = 0;
+    for (int d = 0; d < dims; d++) cell = cell * (size_t)(last[d] - first[d] + 1) + (size_t)(at[d] - first[d]);
+    return cell;
+}
+/* Moves to the next cell of a box. False: `at` was the last one, and is now the first. */
+static inline bool model_next_cell(int dims, const int64_t first[], const int64_t last[], int64_t at[])
+{
+    for (int d = dims - 1; d >= 0; d--) {
+        if (++at[d] <= last[d]) return true;
+        at[d] = first[d];
+    }
+    return false;
+}
+/* Raises `depth` for an expression within another one; the caller lowers it again. False: it complained that this is
+ * too deep. */
+bool model_deeper(model *, const span *at);
 /* Returns the variable whose blocks or initial values have this array, or NULL. */
 const model_state *model_state_of(const model *, uint16_t array);
 /* Takes separate room for the ranges of a definition's indices. */

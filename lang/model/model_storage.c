@@ -1,5 +1,5 @@
-/* Room for a model's numbers and arrays. Both move when they grow, so code that reads a model keeps no pointer into
- * them. */
+/* Room for a model's numbers and arrays, which move when they grow, so code that reads a model keeps no pointer into
+ * them; and the depth of its expressions. */
 #include "lang/model/model.h"
 
 #include <string.h>
@@ -56,11 +56,20 @@ bool model_take_extent(model *m, model_definition *d)
     return true;
 }
 
+bool model_deeper(model *m, const span *at)
+{
+    if (m->depth++ < MODEL_DEPTH_MAX) return true;
+    source_complain(&m->source, MOTUS_LIMIT, at, "brackets and definitions within one another are more than %d deep",
+                    MODEL_DEPTH_MAX);
+    source_hint(&m->source, "use fewer brackets, or fewer definitions within definitions");
+    return false;
+}
+
 void model_start_state(model *m)
 {
     for (uint32_t i = 0; i < m->state_count + m->mode_count; i++) {
         const model_state *s = &m->states[i];
-        size_t n = s->hull * (size_t)(s->components ? s->components : 1);
+        const size_t n = model_numbers(s);
         const double *first = m->pool + m->arrays[s->start_array[0]].base;
         if (s->order == 2) {
             memcpy(m->x0 + s->base, first, n * sizeof *first);

@@ -105,17 +105,12 @@ static node with_sides(graph *g, node root, int level, const replacement *how)
     if (as) graph_order_again(g, &w);
     for (uint32_t k = 0; as && k < w.count && !g->arena->failed && !g->too_large; k++) {
         const graph_node n = *graph_at(g, w.nodes[k]);
-        node operand[3] = {0, 0, 0}, was[3];
-        const int arity = graph_operands(&n, operand);
-        bool same = true;
-        if (arity == 0 || n.op == OP_SUM) continue;
-        memcpy(was, operand, sizeof was);
-        for (int j = 0; j < arity; j++) {
-            if (graph_reached(g, &w, was[j])) operand[j] = as[g->place[was[j]]];
-            same &= operand[j] == was[j];
-            const bool chooses = n.op == OP_SELECT && j == 0;
-            if (how->otherwise && !chooses && graph_at(g, was[j])->op == OP_LOAD) how->otherwise(&n, was[j], how->ctx);
-        }
+        node operand[3], was[3];
+        bool same;
+        const int arity = graph_operands(&n, was);
+        if (n.op == OP_SUM || !graph_operands_as(g, &w, &n, as, operand, &same)) continue;
+        for (int j = n.op == OP_SELECT; j < arity && how->otherwise; j++)
+            if (graph_at(g, was[j])->op == OP_LOAD) how->otherwise(&n, was[j], how->ctx);
         node choice = 0;
         if (n.op == OP_SELECT && graph_at(g, was[0])->op == OP_LOAD)
             choice = how->choice(g, was[0], operand[1], operand[2], how->ctx);

@@ -1,11 +1,10 @@
 /* Finds the switches of a model, and writes its equations with a side in place of each. See switches.h. */
 #include "lang/model/switches.h"
 
-#include "lang/graph/ratio.h"
-#include "lang/model/switches.h"
-
 #include "lang/base/operation.h"
+#include "lang/graph/graph_place.h"
 #include "lang/graph/graph_walk.h"
+#include "lang/graph/ratio.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -42,11 +41,6 @@ static bool broken(const builder *b) { return b->m->arena->failed || b->m->graph
 
 /* The values of the loops' indices --------------------------------------------------------------------------------- */
 
-static int64_t value_of(const model *m, const subscript *s, const int64_t *index)
-{
-    return (s->level >= 0 ? index[s->level] : 0) + s->literal + (s->slot >= 0 ? m->ints[s->slot] : 0);
-}
-
 typedef struct spread {
     int64_t index[MAX_LEVELS], first[MAX_LEVELS], last[MAX_LEVELS];
     int64_t tried;
@@ -57,8 +51,8 @@ typedef struct spread {
 static bool spread_over(const model *m, const nest *n, int level, spread *out)
 {
     if (level == n->count) return ++out->tried <= CELLS_TRIED;
-    const int64_t first = value_of(m, &n->at[level].first, out->index),
-                  last = value_of(m, &n->at[level].last, out->index);
+    const int64_t first = graph_subscript(&n->at[level].first, out->index, m->ints),
+                  last = graph_subscript(&n->at[level].last, out->index, m->ints);
     if (first > last) return true;
     if (first < out->first[level]) out->first[level] = first;
     if (last > out->last[level]) out->last[level] = last;

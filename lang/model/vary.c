@@ -1,6 +1,7 @@
 /* Finds which log entries follow from a change, and runs them again. See vary.h. */
 #include "lang/model/vary.h"
 
+#include "lang/graph/graph_place.h"
 #include "lang/tape/tape.h"
 
 #include <string.h>
@@ -54,12 +55,7 @@ static bool line_changes(const model *m, const struct vary_line *line, const uin
 static size_t place_of(const model *m, const vary_entry *e, int k)
 {
     const output *o = &e->outputs[k];
-    const array *a = &m->arrays[o->to.array];
-    int64_t at = (int64_t)a->base;
-    for (int d = 0; d < o->to.dims && !o->loops; d++)
-        at += (o->to.at[d].literal + (o->to.at[d].slot >= 0 ? m->ints[o->to.at[d].slot] : 0) - a->over->first[d]) *
-              a->over->stride[d];
-    return (size_t)at;
+    return o->loops ? m->arrays[o->to.array].base : graph_element(m->arrays, &o->to, NULL, m->ints);
 }
 
 static void mark_places(vary *v, const struct vary_line *line)

@@ -4,13 +4,7 @@
 static bool add_line(model *m, node value, uint32_t slot)
 {
     vary_log *log = &m->log;
-    if (log->count == log->room) {
-        const uint32_t room = log->room + log->room / 2 + 16;
-        struct vary_line *more = arena_replace(m->arena, log->lines, log->room * sizeof *more, room * sizeof *more);
-        if (!more) return false;
-        log->lines = more;
-        log->room = room;
-    }
+    if (!arena_more(m->arena, &log->lines, log->count, &log->room, sizeof *log->lines)) return false;
     log->lines[log->count++] = (struct vary_line){value, slot};
     return true;
 }
@@ -18,14 +12,8 @@ static bool add_line(model *m, node value, uint32_t slot)
 static vary_entry *new_entry(model *m)
 {
     vary_log *log = &m->log;
-    if (log->entry_count == log->entry_room) {
-        const uint32_t room = log->entry_room + log->entry_room / 2 + 16;
-        vary_entry *more = arena_replace(m->arena, log->entries, log->entry_room * sizeof *more, room * sizeof *more);
-        if (!more) return NULL;
-        log->entries = more;
-        log->entry_room = room;
-    }
-    return &log->entries[log->entry_count];
+    const bool fits = arena_more(m->arena, &log->entries, log->entry_count, &log->entry_room, sizeof *log->entries);
+    return fits ? &log->entries[log->entry_count] : NULL;
 }
 
 bool vary_record(model *m, const output *target, const node *values, int parts, size_t base, int dims,
@@ -83,13 +71,6 @@ void vary_freeze(model *m, node n, const char *what)
 {
     vary_log *log = &m->log;
     if (!(graph_deps(m->graph, n) & DEP_PARAM)) return;
-    if (log->frozen_count == log->frozen_room) {
-        uint32_t room = log->frozen_room ? 2 * log->frozen_room : 16;
-        struct vary_frozen *more =
-            arena_replace(m->arena, log->frozen, log->frozen_room * sizeof *more, room * sizeof *more);
-        if (!more) return;
-        log->frozen = more;
-        log->frozen_room = room;
-    }
+    if (!arena_more(m->arena, &log->frozen, log->frozen_count, &log->frozen_room, sizeof *log->frozen)) return;
     log->frozen[log->frozen_count++] = (struct vary_frozen){n, what};
 }

@@ -141,13 +141,7 @@ static bool moves_inside(model *m, const tree *t, const reader *by, bool *yes)
 
 static bool moves(model *m, const tree *t, const reader *by, bool *yes)
 {
-    if (m->depth == MODEL_DEPTH_MAX) {
-        source_complain(&m->source, MOTUS_LIMIT, &t->at,
-                        "brackets and definitions within one another are more than %d deep", MODEL_DEPTH_MAX);
-        source_hint(&m->source, "use fewer brackets, or fewer definitions within definitions");
-        return false;
-    }
-    m->depth++;
+    if (!model_deeper(m, &t->at)) return false;
     bool ok = moves_inside(m, t, by, yes);
     m->depth--;
     return ok;

@@ -2,14 +2,6 @@
  * that would never happen. */
 #include "lang/read/read_steps.h"
 
-#define COMPLAIN(m, at, ...) (source_complain(&(m)->source, MOTUS_SHAPE, (at), __VA_ARGS__))
-#define HINT(m, ...) (source_hint(&(m)->source, __VA_ARGS__))
-
-static const char *quote(const model *m, const span *at, char out[80])
-{
-    return source_excerpt(&m->source, at, out, 80);
-}
-
 /* Makes places for the values of assignments. An event writes one for each value of the indices that number no
  * instances; what the event keeps (keep.c) has none of these indices. */
 static bool place_values(model *m, model_rule *r)

@@ -34,7 +34,7 @@ bool layout_all(model *m)
             if (s->order != order) continue;
             s->base = total;
             s->array = (uint16_t)parts;
-            total += s->hull * (size_t)(s->components ? s->components : 1);
+            total += model_numbers(s);
             parts += (uint32_t)(s->components ? s->components : 1);
             if (total > MODEL_NUMBERS_MAX) {
                 source_complain(&m->source, MOTUS_LIMIT, &s->at, "the states have more than the %d numbers that fit",

@@ -41,6 +41,18 @@ bool mode_find_all(model *m)
     return true;
 }
 
+static void take_shape(model_state *s, int dims, const int64_t *first, const int64_t *last)
+{
+    s->dims = dims;
+    s->hull = 1;
+    for (int d = 0; d < dims; d++) {
+        s->first[d] = s->eq_first[d] = first[d];
+        s->last[d] = s->eq_last[d] = last[d];
+        s->hull *= (size_t)(last[d] - first[d] + 1);
+    }
+    s->cells.count = s->hull;
+}
+
 bool mode_add_sides(model *m, const read_how *how)
 {
     const uint32_t before = m->state_count + m->mode_count;
@@ -51,14 +63,8 @@ bool mode_add_sides(model *m, const read_how *how)
     m->states = all;
     for (uint32_t k = 0; k < how->side_count; k++) {
         const model_shape *from = &how->sides[k];
-        model_state *s = &all[before + k];
-        *s = (model_state){.name = "side", .order = 2, .dims = from->dims, .hull = 1};
-        for (int d = 0; d < from->dims; d++) {
-            s->first[d] = s->eq_first[d] = from->first[d];
-            s->last[d] = s->eq_last[d] = from->last[d];
-            s->hull *= (size_t)(from->last[d] - from->first[d] + 1);
-        }
-        s->cells.count = s->hull;
+        all[before + k] = (model_state){.name = "side", .order = 2};
+        take_shape(&all[before + k], from->dims, from->first, from->last);
     }
     m->mode_count += how->side_count;
     m->side_first = before;
@@ -95,14 +101,7 @@ bool mode_shape_all(model *m)
         if (!d->mode) continue;
         model_state *s = &m->states[d->mode - 1];
         s->components = d->components;
-        s->dims = d->dims;
-        s->hull = 1;
-        for (int k = 0; k < d->dims; k++) {
-            s->first[k] = s->eq_first[k] = d->first[k];
-            s->last[k] = s->eq_last[k] = d->last[k];
-            s->hull *= (size_t)(d->last[k] - d->first[k] + 1);
-        }
-        s->cells.count = s->hull;
+        take_shape(s, d->dims, d->first, d->last);
         if (!place_starts(m, s, d)) return false;
     }
     for (uint32_t k = 0; k < m->side_count; k++)

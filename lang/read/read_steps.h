@@ -22,6 +22,14 @@ bool effects_all(model *);               /* what events change */
 bool equations_start(model *);           /* boundary cells at the start */
 void analysis_all(model *);              /* traits of the equations */
 
+#define COMPLAIN(m, at, ...) (source_complain(&(m)->source, MOTUS_SHAPE, (at), __VA_ARGS__))
+#define HINT(m, ...) (source_hint(&(m)->source, __VA_ARGS__))
+
+static inline const char *quote(const model *m, const span *at, char out[80])
+{
+    return source_excerpt(&m->source, at, out, 80);
+}
+
 /* Parts of the steps. */
 const span *mode_assigned_at(const model *, const model_definition *); /* where an event first assigns it */
 bool layout_finish(model *);                                           /* what follows from the places of the states */

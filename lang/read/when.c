@@ -13,14 +13,6 @@
 #include <math.h>
 #include <string.h>
 
-#define COMPLAIN(m, at, ...) (source_complain(&(m)->source, MOTUS_SHAPE, (at), __VA_ARGS__))
-#define HINT(m, ...) (source_hint(&(m)->source, __VA_ARGS__))
-
-static const char *quote(const model *m, const span *at, char out[80])
-{
-    return source_excerpt(&m->source, at, out, 80);
-}
-
 static bool failed(model *m) { return source_failed(&m->source) || m->graph->too_large; }
 
 /* Indices ---------------------------------------------------------------------------------------------------------- */
@@ -191,10 +183,8 @@ static bool moving_cells(model *m, lowering *l, const tree *t, const model_state
         if (low[d] > high[d] || low[d] < s->first[d] || high[d] > s->last[d]) return true; /* lower_name.c complains */
         at[d] = low[d];
     }
-    for (;;) {
-        size_t cell = 0;
-        for (int d = 0; d < s->dims; d++)
-            cell = cell * (size_t)(s->last[d] - s->first[d] + 1) + (size_t)(at[d] - s->first[d]);
+    do {
+        const size_t cell = model_cell(s->dims, s->first, s->last, at);
         if (s->owner[cell] == 2) {
             char name[MOTUS_NAME_MAX + 64];
             model_state_name(s, cell, -1, false, name, sizeof name);
@@ -202,13 +192,8 @@ static bool moving_cells(model *m, lowering *l, const tree *t, const model_state
             HINT(m, "an event assigns cells that have an equation of motion");
             return false;
         }
-        int d = s->dims - 1;
-        while (d >= 0 && ++at[d] > high[d]) {
-            at[d] = low[d];
-            d--;
-        }
-        if (d < 0) return true;
-    }
+    } while (model_next_cell(s->dims, low, high, at));
+    return true;
 }
 
 /* Returns the name on the left of an assignment; NULL: there is none. */

@@ -341,16 +341,6 @@ static bool assign(writer *w, uint32_t counts[REGISTER_KINDS])
     return tape_registers_assign(w->plan.hooks, w->registers.at, w->registers.count, w->text.count, counts);
 }
 
-/* Copies a list to the arena, and gives the list back. */
-#define KEPT(w, a, list) kept(w, a, (list).at, (list).count, sizeof *(list).at)
-static void *kept(writer *w, arena *a, void *rows, size_t count, size_t size)
-{
-    void *copy = arena_take(a, (count + !count) * size);
-    if (copy && !a->failed && count) memcpy(copy, rows, count * size);
-    give(w->plan.hooks, rows);
-    return copy;
-}
-
 static void take_wraps(code *c, arena *a)
 {
     for (uint32_t k = 0; k < c->site_count && !a->failed; k++) {
@@ -379,11 +369,11 @@ static code *finish(writer *w, arena *a)
                 .scalars = counts[SCALAR_REGISTER] + 1,
                 .blocks = counts[BLOCK_REGISTER],
                 .pointers = counts[POINTER_REGISTER],
-                .instructions = KEPT(w, a, w->text),
-                .sites = KEPT(w, a, w->sites),
-                .loops = KEPT(w, a, w->loops),
-                .totals = KEPT(w, a, w->totals),
-                .constants = KEPT(w, a, w->constants)};
+                .instructions = KEPT(&w->plan, a, w->text),
+                .sites = KEPT(&w->plan, a, w->sites),
+                .loops = KEPT(&w->plan, a, w->loops),
+                .totals = KEPT(&w->plan, a, w->totals),
+                .constants = KEPT(&w->plan, a, w->constants)};
     w->text.at = NULL;
     w->sites.at = NULL;
     w->loops.at = NULL;

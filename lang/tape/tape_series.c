@@ -131,15 +131,6 @@ static void put_region(writer *w, uint32_t region)
     to->count = w->tasks.count - to->first;
 }
 
-/* Copies a list to the arena, and gives the list back. */
-static void *kept(writer *w, arena *a, void *rows, size_t count, size_t size)
-{
-    void *copy = arena_room(a, (count + !count) * size);
-    if (copy && count) memcpy(copy, rows, count * size);
-    give(w->plan.hooks, rows);
-    return copy;
-}
-
 static bool write(writer *w, arena *a, int length)
 {
     const uint32_t items = w->plan.items.count, regions = w->plan.regions.count;
@@ -165,8 +156,8 @@ tape_series *tape_series_create(arena *a, const program *program, int length)
     writer w = {.out = s};
     *s = (tape_series){.length = length, .program = program, .machine = tape_machine_at(0)};
     bool ok = plan_create(&w.plan, a, program, false) && write(&w, a, length);
-    s->tasks = kept(&w, a, w.tasks.at, w.tasks.count, sizeof *w.tasks.at);
-    s->constants = kept(&w, a, w.constants.at, w.constants.count, sizeof *w.constants.at);
+    s->tasks = KEPT(&w.plan, a, w.tasks);
+    s->constants = KEPT(&w.plan, a, w.constants);
     plan_release(&w.plan);
     if (!ok) a->failed = true;
     return a->failed ? NULL : s;

@@ -162,8 +162,35 @@ static bool bracket(lexer *l, char c, uint32_t from)
 
 static token wrong_character(lexer *l, uint32_t from, uint32_t c, uint32_t size)
 {
+    static const char raised[] = "raised characters are not read as powers", powers[] = "write ^2, ^3 …",
+                      sign[] = "this sign is not an operator here";
+    static const struct {
+        uint32_t first, last;
+        const char *what, *hint;
+    } known[] = {
+        {0xB2, 0xB3, raised, powers},
+        {0xB9, 0xB9, raised, powers},
+        {0x2070, 0x207F, raised, powers},
+        {0xF7, 0xF7, sign, "divide with /"},
+        {0x221A, 0x221A, sign, "write sqrt(…)"},
+        {0x2211, 0x2211, sign, "write sum(i = 1..N: …)"},
+        {';', ';', "; ends a statement, and here a bracket is open",
+         "close the bracket; a comma stands between components, arguments and conditions"},
+        {'{', '{', "there are no braces in the language", "group with ( )"},
+        {'}', '}', "there are no braces in the language", "group with ( )"},
+        {'&', '&', "there is no & in the language", "write: and"},
+        {'!', '!', "! alone means nothing", "write != for unequal, not for the logical not"},
+        {0xB0, 0xB0, "angles are in radians", "write 30 pi/180 for 30 degrees"},
+        {'\\', '\\', "the character \\ has no meaning here", "write Greek letters as they are, ω, or by name, omega"},
+        {'%', '%', "the character % has no meaning here", "a comment begins with #"}};
     source *s = l->source;
-    span at = {l->text, from, from + (size ? size : 1)};
+    const span at = {l->text, from, from + (size ? size : 1)};
+    for (size_t i = 0; size && i < sizeof known / sizeof *known; i++)
+        if (c >= known[i].first && c <= known[i].last) {
+            source_complain(s, MOTUS_SYNTAX, &at, "%s", known[i].what);
+            source_hint(s, "%s", known[i].hint);
+            return stop(l, from);
+        }
     if (size == 0) {
         source_complain(s, MOTUS_SYNTAX, &at, "this byte (0x%02X) is not UTF-8 text",
                         (unsigned char)s->texts[l->text].bytes[from]);
@@ -171,40 +198,7 @@ static token wrong_character(lexer *l, uint32_t from, uint32_t c, uint32_t size)
     } else if (c < 0x20 || c == 0x7F) {
         source_complain(s, MOTUS_SYNTAX, &at, "a control character (U+%04X) stands here", c);
         source_hint(s, "a model is plain text: remove it");
-    } else if (c == 0xB2 || c == 0xB3 || c == 0xB9 || (c >= 0x2070 && c <= 0x207F)) {
-        source_complain(s, MOTUS_SYNTAX, &at, "raised characters are not read as powers");
-        source_hint(s, "write ^2, ^3 …");
-    } else if (c == 0xF7) {
-        source_complain(s, MOTUS_SYNTAX, &at, "this sign is not an operator here");
-        source_hint(s, "divide with /");
-    } else if (c == 0x221A) {
-        source_complain(s, MOTUS_SYNTAX, &at, "this sign is not an operator here");
-        source_hint(s, "write sqrt(…)");
-    } else if (c == 0x2211) {
-        source_complain(s, MOTUS_SYNTAX, &at, "this sign is not an operator here");
-        source_hint(s, "write sum(i = 1..N: …)");
-    } else if (c == ';') {
-        source_complain(s, MOTUS_SYNTAX, &at, "; ends a statement, and here a bracket is open");
-        source_hint(s, "close the bracket; a comma stands between components, arguments and conditions");
-    } else if (c == '{' || c == '}') {
-        source_complain(s, MOTUS_SYNTAX, &at, "there are no braces in the language");
-        source_hint(s, "group with ( )");
-    } else if (c == '&') {
-        source_complain(s, MOTUS_SYNTAX, &at, "there is no & in the language");
-        source_hint(s, "write: and");
-    } else if (c == '!') {
-        source_complain(s, MOTUS_SYNTAX, &at, "! alone means nothing");
-        source_hint(s, "write != for unequal, not for the logical not");
-    } else if (c == 0xB0) {
-        source_complain(s, MOTUS_SYNTAX, &at, "angles are in radians");
-        source_hint(s, "write 30 pi/180 for 30 degrees");
-    } else if (c == '\\') {
-        source_complain(s, MOTUS_SYNTAX, &at, "the character \\ has no meaning here");
-        source_hint(s, "write Greek letters as they are, ω, or by name, omega");
-    } else if (c == '%') {
-        source_complain(s, MOTUS_SYNTAX, &at, "the character %% has no meaning here");
-        source_hint(s, "a comment begins with #");
-    } else if (c >= 0x20 && c < 0x7F) {
+    } else if (c < 0x7F) {
         source_complain(s, MOTUS_SYNTAX, &at, "the character %c has no meaning here", (char)c);
     } else {
         source_complain(s, MOTUS_SYNTAX, &at, "the character U+%04X has no meaning here", c);

@@ -12,11 +12,19 @@ static const struct {
     int operation;
 } calls[] = {{"dot", CALL_DOT}, {"cross", CALL_CROSS}, {"if", CALL_IF}, {"diff", CALL_DIFF}};
 
-static const char *const statements_words[] = {"method", "step",  "tolerance", "accuracy",  "from",
-                                               "until",  "every", "exact",     "invariant", "when"};
-static const char *const other_words[] = {"t", "pi", "and", "or", "not", "for", "sum", "steps"};
-static const char *const event_words[] = {"rising", "falling", "as", "accumulates", "record", "stop", "after"};
-static const char *const kept_words[] = {"count", "time", "at"};
+enum { STATEMENTS, OTHERS, OF_EVENTS, KEPT, LISTS, MOST = 11 };
+static const char *const lists[LISTS][MOST] = {
+    [STATEMENTS] = {"method", "step", "tolerance", "accuracy", "from", "until", "every", "exact", "invariant", "when"},
+    [OTHERS] = {"t", "pi", "and", "or", "not", "for", "sum", "steps"},
+    [OF_EVENTS] = {"rising", "falling", "as", "accumulates", "record", "stop", "after"},
+    [KEPT] = {"count", "time", "at"}};
+
+static bool has(int list, const char *name)
+{
+    size_t i = 0;
+    while (lists[list][i] && strcmp(lists[list][i], name)) i++;
+    return lists[list][i] != NULL;
+}
 
 const char *words_called(size_t k)
 {
@@ -34,58 +42,37 @@ int words_function(const char *name)
     return -1;
 }
 
-bool words_reserved(const char *name)
-{
-    for (size_t i = 0; i < sizeof statements_words / sizeof *statements_words; i++)
-        if (!strcmp(statements_words[i], name)) return true;
-    for (size_t i = 0; i < sizeof other_words / sizeof *other_words; i++)
-        if (!strcmp(other_words[i], name)) return true;
-    return false;
-}
+bool words_reserved(const char *name) { return has(STATEMENTS, name) || has(OTHERS, name); }
 
 bool words_nearest_statement(const char *name, char *out, size_t size)
 {
     int best = 5;
-    for (size_t i = 0; i < sizeof statements_words / sizeof *statements_words; i++) {
-        int d = near_distance(name, statements_words[i], 4);
-        if (d < best) {
-            best = d;
-            snprintf(out, size, "%s", statements_words[i]);
-        }
+    for (const char *const *word = lists[STATEMENTS]; *word; word++) {
+        const int d = near_distance(name, *word, 4);
+        if (d < best) snprintf(out, size, "%s", *word), best = d;
     }
     return best < 5;
 }
 
 motus_word_kind words_event_kind(const char *name)
 {
-    for (size_t i = 0; i < sizeof event_words / sizeof *event_words; i++)
-        if (!strcmp(event_words[i], name)) return MOTUS_WORD_OPERATOR;
-    for (size_t i = 0; i < sizeof kept_words / sizeof *kept_words; i++)
-        if (!strcmp(kept_words[i], name)) return MOTUS_WORD_FUNCTION;
-    return MOTUS_WORD_UNKNOWN;
+    return has(OF_EVENTS, name) ? MOTUS_WORD_OPERATOR : has(KEPT, name) ? MOTUS_WORD_FUNCTION : MOTUS_WORD_UNKNOWN;
 }
 
 const char *words_at(size_t k)
 {
     for (size_t i = 0; words_called(i); i++)
         if (k-- == 0) return words_called(i);
-    const struct {
-        const char *const *word;
-        size_t count;
-    } lists[] = {{statements_words, sizeof statements_words / sizeof *statements_words},
-                 {other_words, sizeof other_words / sizeof *other_words},
-                 {event_words, sizeof event_words / sizeof *event_words},
-                 {kept_words, sizeof kept_words / sizeof *kept_words}};
-    for (size_t i = 0; i < sizeof lists / sizeof *lists; k -= lists[i++].count)
-        if (k < lists[i].count) return lists[i].word[k];
+    for (int list = 0; list < LISTS; list++)
+        for (const char *const *word = lists[list]; *word; word++)
+            if (k-- == 0) return *word;
     return NULL;
 }
 
 motus_word_kind words_kind(const char *name)
 {
     if (words_function(name) >= 0 || !strcmp(name, "sum")) return MOTUS_WORD_FUNCTION;
-    for (size_t i = 0; i < sizeof statements_words / sizeof *statements_words; i++)
-        if (!strcmp(statements_words[i], name)) return MOTUS_WORD_SETTING;
+    if (has(STATEMENTS, name)) return MOTUS_WORD_SETTING;
     if (!strcmp(name, "t") || !strcmp(name, "pi")) return MOTUS_WORD_KNOWN;
     return words_reserved(name) ? MOTUS_WORD_OPERATOR : MOTUS_WORD_UNKNOWN;
 }

@@ -3,6 +3,14 @@
  * `deeper` bounds the rest, so no text exhausts the C stack. */
 #include "lang/tree/parse_parts.h"
 
+/* Returns -t, whose sign is at a place. */
+static tree *negated(parser *p, span sign, tree *t)
+{
+    tree *negative = grow(p, TREE_NEGATE, &(span){sign.text, sign.from, t->at.to});
+    add_item(p, negative, t);
+    return negative;
+}
+
 /* power = factor [ "^" [ "-" | "+" ] power ]: right-associative [2] */
 static tree *parse_power(parser *p)
 {
@@ -22,12 +30,7 @@ static tree *parse_power(parser *p)
         HINT(p, "write the derivative out");
         return base;
     }
-    if (minus) {
-        tree *t = grow(p, TREE_NEGATE, &(span){sign.text, sign.from, exponent->at.to});
-        add_item(p, t, exponent);
-        exponent = t;
-    }
-    return two(p, TREE_POWER, base, exponent);
+    return two(p, TREE_POWER, base, minus ? negated(p, sign, exponent) : exponent);
 }
 
 /* Returns whether the token is a word of events, before which no factor ends in a product. */
@@ -140,11 +143,7 @@ static tree *parse_signed(parser *p, tree *t)
     tree *right = parse_power(p);
     if (failed(p)) return t;
     right->divisor = !times;
-    if (minus) {
-        tree *negative = grow(p, TREE_NEGATE, &(span){at.text, at.from, right->at.to});
-        add_item(p, negative, right);
-        right = negative;
-    }
+    if (minus) right = negated(p, at, right);
     return two(p, times ? TREE_MULTIPLY : TREE_DIVIDE, t, right);
 }
 
@@ -173,11 +172,7 @@ static tree *parse_terms(parser *p)
         }
         t = parse_product(p);
         if (failed(p)) return t;
-        if (minus) {
-            tree *negative = grow(p, TREE_NEGATE, &(span){at.text, at.from, t->at.to});
-            add_item(p, negative, t);
-            t = negative;
-        }
+        if (minus) t = negated(p, at, t);
     } else {
         t = parse_product(p);
     }

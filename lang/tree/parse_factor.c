@@ -125,6 +125,19 @@ static tree *parse_sum(parser *p, span name)
     return t;
 }
 
+/* items = inside { "," inside } and the closing bracket; the opening one is the present token */
+static tree *parse_items(parser *p, tree *t, char close, const char *where)
+{
+    do {
+        advance(p);
+        add_item(p, t, parse_inside(p));
+        if (failed(p)) return t;
+    } while (is(p, ','));
+    t->at.to = p->token.at.to;
+    expect(p, close, where);
+    return t;
+}
+
 static int arity(int operation)
 {
     if (operation >= OPERATIONS) return operation == CALL_IF ? 3 : 2;
@@ -159,13 +172,8 @@ static tree *parse_call(parser *p, span name)
     tree *t = grow(p, TREE_CALL, &name);
     t->operation = (int16_t)operation;
     t->name = text;
-    do {
-        advance(p);
-        add_item(p, t, parse_inside(p));
-        if (failed(p)) return t;
-    } while (is(p, ','));
-    t->at.to = p->token.at.to;
-    if (!expect(p, ')', "or a comma")) return t;
+    parse_items(p, t, ')', "or a comma");
+    if (failed(p)) return t;
     int wanted = arity(operation);
     if (wanted < 0 ? t->count < (uint32_t)-wanted : t->count != (uint32_t)wanted) {
         COMPLAIN(p, &t->at, "%s takes %s%d argument%s, not %u", text, wanted < 0 ? "at least " : "",
@@ -179,14 +187,8 @@ static tree *parse_call(parser *p, span name)
 /* index = "[" inside { "," inside } "]" */
 void parse_index(parser *p, tree *t)
 {
-    do {
-        advance(p);
-        add_item(p, t, parse_inside(p));
-        if (failed(p)) return;
-    } while (is(p, ','));
+    parse_items(p, t, ']', "after the index");
     t->index_count = (uint16_t)(t->count < UINT16_MAX ? t->count : UINT16_MAX);
-    t->at.to = p->token.at.to;
-    expect(p, ']', "after the index");
     if (t->index_count > MAX_DIMS) source_complain(p->source, MOTUS_LIMIT, &t->at, "at most %d indices", MAX_DIMS);
 }
 
@@ -233,19 +235,6 @@ static tree *parse_components(parser *p, tree *t)
     return t;
 }
 
-/* items = inside { "," inside } and the closing bracket; the opening one is the present token */
-static tree *parse_items(parser *p, tree *t, char close, const char *where)
-{
-    do {
-        advance(p);
-        add_item(p, t, parse_inside(p));
-        if (failed(p)) return t;
-    } while (is(p, ','));
-    t->at.to = p->token.at.to;
-    expect(p, close, where);
-    return t;
-}
-
 /* applied = name "(" inside { "," inside } ")": x(0), V(a, b) [4, 16] */
 tree *parse_applied(parser *p, tree *name)
 {
@@ -267,11 +256,7 @@ static tree *parse_name(parser *p)
     if (p->token.kind == TOKEN_PRIMES && !p->token.blank) {
         t->primes = (uint8_t)p->token.primes;
         t->at.to = p->token.at.to;
-        if (t->primes > 2) {
-            COMPLAIN(p, &p->token.at, "%d primes: the highest derivative is x''", t->primes);
-            HINT(p, "Newton's second law is of second order; for more, add a first-order variable s' = …");
-            return t;
-        }
+        if (too_many_primes(p)) return t;
         advance(p);
     } else if (p->token.kind == TOKEN_PRIMES) {
         COMPLAIN(p, &p->token.at, "primes stand directly behind the name");

@@ -131,6 +131,14 @@ static inline bool deeper(parser *p)
     return false;
 }
 
+static inline bool too_many_primes(parser *p)
+{
+    if (p->token.primes <= 2) return false;
+    COMPLAIN(p, &p->token.at, "%d primes: the highest derivative is x''", p->token.primes);
+    HINT(p, "Newton's second law is of second order; for more, add a first-order variable s' = …");
+    return true;
+}
+
 /* Complains that the present token is not the expected one. */
 static inline void unexpected(parser *p, const char *wanted)
 {

@@ -165,11 +165,7 @@ static void parse_left(parser *p, statement *s)
     if (failed(p)) return;
     if (p->token.kind == TOKEN_PRIMES) {
         s->primes = (uint8_t)p->token.primes;
-        if (s->primes > 2) {
-            COMPLAIN(p, &p->token.at, "%d primes: the highest derivative is x''", s->primes);
-            HINT(p, "Newton's second law is of second order; for more, add a first-order variable s' = …");
-            return;
-        }
+        if (too_many_primes(p)) return;
         advance(p);
     }
     s->kind = s->primes ? STATEMENT_EQUATION : STATEMENT_DEFINITION;
