@@ -581,7 +581,7 @@ static void refused(void **state)
     motus_text_def both = motus_default_text();
     both.text = "x'' = -x; x(0) = 1; x'(0) = 0; tolerance 1e-5; accuracy 1e-5";
     assert_int_equal(motus_system_from_text(&both, &s, &err), MOTUS_ARGUMENT);
-    assert_string_equal(err.message, "a tolerance and an accuracy are set");
+    assert_string_equal(err.message, "both a tolerance and an accuracy are set");
 }
 
 /* Of a body that others hold in balance the force is rounding, which a tolerance relative to its own speed asks to be

@@ -684,7 +684,7 @@ static void rule_16_refused(void **unused)
     refused("V(q) = sum(i = 1..V(2): q)", MOTUS_NAME, 1, 19, "V calls itself");
     refused("V(q) = q\nf = V(x, 1)", MOTUS_SYNTAX, 2, 5, "V takes 1 argument, not 2");
     refused("V(p, q) = q\nf = V(x)", MOTUS_SYNTAX, 2, 5, "it is defined as V(p, q)");
-    refused("V(q) = q\nf = V + x", MOTUS_SYNTAX, 2, 5, "in a bracket glued to it");
+    refused("V(q) = q\nf = V + x", MOTUS_SYNTAX, 2, 5, "in a bracket directly behind it");
     refused("V(q) = q\nf = V'(x)", MOTUS_SYNTAX, 2, 5, "diff(V(q), q)");
     refused("V(q, q) = q", MOTUS_NAME, 1, 6, "stands twice");
     refused("V(q) = p q", MOTUS_NAME, 1, 8, "p is not defined");
@@ -697,7 +697,7 @@ static void rule_16_refused(void **unused)
     refused("V(q) = q^2\nf = V(r)", MOTUS_SHAPE, 1, 8, "a vector has no powers");
     refused("V(q) = q.z\nf = V(r)", MOTUS_SHAPE, 1, 10, "1 to 2");
     refused("V(q) = x q\np = V(2)\nstep p", MOTUS_SHAPE, 3, 6, "p depends on a state or on time");
-    refused("V(q) = q for i = 1..2", MOTUS_SHAPE, 1, 14, "no family");
+    refused("V(q) = q for i = 1..2", MOTUS_SHAPE, 1, 14, "cannot be a family");
     refused("V(q) = sum(q = 1..2: q)\nf = V(x)", MOTUS_SHAPE, 1, 12, "argument");
     refused("V(a, b, c, d, e, f, g, h, i) = a", MOTUS_LIMIT, 1, 1, "at most 8 arguments");
     refused("f = W(x)", MOTUS_NAME, 1, 5, "define it: W(…) = …");
@@ -780,8 +780,8 @@ static void rule_17_derivatives(void **unused)
         {"", "diff(y, x) + diff(t, x)", 0},
     };
     in_given(e, sizeof e / sizeof *e);
-    refused("f = diff(x^2, 2 x)", MOTUS_SHAPE, 1, 15, "2 x is none");
-    refused("f = diff(x^2, pi)", MOTUS_SHAPE, 1, 15, "pi is none");
+    refused("f = diff(x^2, 2 x)", MOTUS_SHAPE, 1, 15, "2 x is not one");
+    refused("f = diff(x^2, pi)", MOTUS_SHAPE, 1, 15, "pi is not one");
     refused("f = diff(E, E)\nE = x^2", MOTUS_SHAPE, 1, 13, "E is a quantity");
     refused("f = diff(2 r, r)", MOTUS_SHAPE, 1, 5, "matrix");
     refused("f = diff(x > 0, x)", MOTUS_SHAPE, 1, 10, "condition");

@@ -11,7 +11,7 @@ bool lower_no_matrix(lowering *l, const value *v, const tree *t)
     char text[80];
     if (failed(l) || !v->rows) return true;
     quote(l, &t->at, text);
-    COMPLAIN(l, &t->at, "%s is a matrix, which may multiply a vector and stand nowhere else", text);
+    COMPLAIN(l, &t->at, "%s is a matrix, which can only be a factor", text);
     if (t->kind == TREE_NAME)
         HINT(l, "write %s x, or %s[1, 2] for an entry", text, text);
     else

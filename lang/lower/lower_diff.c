@@ -40,10 +40,10 @@ static node of_parameter(differential *d, uint32_t slot)
     if (d->of_slot[slot]) return d->of_slot[slot] - 1;
     if (!d->line[slot]) return 0;
     if (d->chain == MODEL_CHAIN_MAX) {
-        source_complain(&m->source, MOTUS_LIMIT, &d->call->at,
-                        "between this expression and what it is differentiated by are more than %d parameters, each of "
-                        "which uses the next",
-                        MODEL_CHAIN_MAX);
+        source_complain(
+            &m->source, MOTUS_LIMIT, &d->call->at,
+            "more than %d parameters, each of which uses the next, lie between this expression and the variable",
+            MODEL_CHAIN_MAX);
         return 0;
     }
     d->chain++;
@@ -155,7 +155,7 @@ static value by_argument(lowering *l, const tree *call, argument *a)
 static value no_variable(lowering *l, const tree *t)
 {
     char text[80];
-    COMPLAIN(l, &t->at, "diff differentiates by a variable, and %s is none", quote(l, &t->at, text));
+    COMPLAIN(l, &t->at, "diff differentiates by a variable, and %s is not one", quote(l, &t->at, text));
     HINT(l,
          "a variable is a state x, its velocity x', t, a parameter, an argument of a function, or a component of them");
     return wrong(l);

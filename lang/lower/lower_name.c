@@ -311,7 +311,7 @@ static value lower_use(lowering *l, const tree *t, argument *a)
 {
     if (t->primes) {
         COMPLAIN(l, &t->at, "%s is an argument and takes no primes", t->name);
-        HINT(l, "hand the velocity over as an argument of its own");
+        HINT(l, "pass the velocity as an argument of its own");
         return wrong(l);
     }
     if (t->index_count > 1) {

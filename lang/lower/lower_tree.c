@@ -478,7 +478,7 @@ value lower_tree(lowering *l, const tree *t)
     case TREE_VECTOR: return lower_vector(l, t);
     case TREE_LIST:
         if (t->count > 0 && t->item[0]->kind == TREE_LIST) return lower_matrix(l, t);
-        COMPLAIN(l, &t->at, "a list stands alone behind the = of a parameter");
+        COMPLAIN(l, &t->at, "a list can only be the whole value of a parameter");
         HINT(l, "write m = [1, 2], then m[1]; a vector is written (1, 2)");
         return wrong(l);
     case TREE_COMPONENT: return lower_component(l, lower_expression(l, t->item[0]), t->item[1], t);

@@ -197,7 +197,7 @@ static bool family_extent(model *m, model_definition *d)
         int64_t first[MAX_DIMS], last[MAX_DIMS];
         if (!open_line(m, d, line, &l, &o)) return false;
         if (line == d->statement && !line->next && (o.loops == 0 || o.loops != o.to.dims)) {
-            source_complain(&m->source, MOTUS_SHAPE, &line->at, "%s[…] needs an index that runs", d->name);
+            source_complain(&m->source, MOTUS_SHAPE, &line->at, "%s[…] needs an index with a range", d->name);
             source_hint(&m->source, "write %s[i] = … for i = 1..N, or a list %s = [1, 2, 3]", d->name, d->name);
             return false;
         }

@@ -59,9 +59,9 @@ bool model_take_extent(model *m, model_definition *d)
 bool model_deeper(model *m, const span *at)
 {
     if (m->depth++ < MODEL_DEPTH_MAX) return true;
-    source_complain(&m->source, MOTUS_LIMIT, at, "brackets and definitions within one another are more than %d deep",
+    source_complain(&m->source, MOTUS_LIMIT, at, "brackets and definitions are nested more than %d deep",
                     MODEL_DEPTH_MAX);
-    source_hint(&m->source, "use fewer brackets, or fewer definitions within definitions");
+    source_hint(&m->source, "use fewer nested brackets or definitions");
     return false;
 }
 

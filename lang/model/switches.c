@@ -71,7 +71,7 @@ static const char *place(builder *b, const nest *around, unsigned deps, size_t *
     over.tried = 0;
     for (int k = 0; k < MAX_LEVELS; k++) over.first[k] = INT64_MAX, over.last[k] = INT64_MIN;
     if (around->count > MAX_DIMS || !spread_over(b->m, around, 0, &over))
-        return "there are too many of them in loops within loops";
+        return "there are too many of them in nested loops";
     int dims = 0;
     int64_t first[MAX_DIMS], last[MAX_DIMS];
     double cells = 1;

@@ -181,7 +181,7 @@ static motus_status refuse(const model *m, const uint8_t *changed, bool own_step
         const struct vary_frozen *f = &m->log.frozen[k];
         bool step = f->what && !strcmp(f->what, "step"), until = f->what && !strcmp(f->what, "until");
         if (!changed[f->n] || (step && own_step) || (until && own_until)) continue;
-        fail(err, MOTUS_ARGUMENT, "what varies decides %s%s, which must be the same for all trajectories",
+        fail(err, MOTUS_ARGUMENT, "a number that varies decides %s%s, which must be the same for all trajectories",
              step || until ? "the " : "", until ? "end" : decision(f));
         if (step || until) hint(err, "give `step` of the definition and `until` of the definition");
         return MOTUS_ARGUMENT;

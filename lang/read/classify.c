@@ -87,7 +87,8 @@ static bool function_moves(model *m, model_function *f, span at, const reader *b
         char circle[8 * MOTUS_NAME_MAX];
         name_circle(circle, sizeof circle, by, f->name);
         source_complain(&m->source, MOTUS_NAME, &at, "%s calls itself: %s", f->name, circle);
-        source_hint(&m->source, "every call is replaced by what the function says, so none may come back to itself");
+        source_hint(&m->source,
+                    "every call is replaced by the expression of the function, so a function cannot call itself");
         return false;
     }
     if (f->progress == 0) {

@@ -110,7 +110,7 @@ static bool check_arguments(model *m, const statement *s)
                 return false;
             }
     if (s->loop_count == 0) return true;
-    source_complain(&m->source, MOTUS_SHAPE, &s->loops[0].at, "a function is no family");
+    source_complain(&m->source, MOTUS_SHAPE, &s->loops[0].at, "a function cannot be a family");
     source_hint(&m->source, "an index may be an argument: %s(i, …)", s->name);
     return false;
 }
@@ -226,7 +226,7 @@ static bool replace(model *m, uint32_t text)
     for (uint32_t i = 0; i < m->statements.count; i++) {
         const statement *old = &m->statements.item[i];
         if (old->kind != STATEMENT_DEFINITION || strcmp(old->name, one->name)) continue;
-        source_complain(s, MOTUS_ARGUMENT, &one->name_at, "%s can only be set with all of its numbers", one->name);
+        source_complain(s, MOTUS_ARGUMENT, &one->name_at, "%s can only be set as a whole", one->name);
         if (old->value->kind == TREE_LIST)
             source_hint(s, "write %s = [1, 2, …]", one->name);
         else

@@ -84,7 +84,7 @@ static bool flat(model *m, const model_rule *r, node leaf)
 {
     char text[80];
     if (!graph_jump(m->graph, leaf) || !graph_flat(m->graph, leaf)) return false;
-    COMPLAIN(m, &r->occasion, "%s never happens: its sides are constant but where they jump, and do not pass",
+    COMPLAIN(m, &r->occasion, "%s never happens: its sides change only by jumps, which do not pass through equality",
              quote(m, &r->occasion, text));
     HINT(m, "write >= or <= in place of =: a condition happens when it becomes true");
     return true;
@@ -99,7 +99,8 @@ static bool judge_functions(model *m, const model_rule *r)
         if (flat(m, r, r->leaf[k].value)) return false;
         if (!(deps & DEP_MODE) || (deps & (DEP_TIME | (DEP_STATE & ~(unsigned)DEP_MODE)))) continue;
         char text[80];
-        COMPLAIN(m, &r->occasion, "%s never happens: its sides change at events alone, where they jump and do not pass",
+        COMPLAIN(m, &r->occasion,
+                 "%s never happens: its sides change only at events, by jumps, which do not pass through equality",
                  quote(m, &r->occasion, text));
         HINT(m, "write ==, >= or <= in place of =: a condition happens when it becomes true");
         return false;

@@ -142,7 +142,7 @@ static bool looked_at(model *m, model_definition *d)
     lower_start(&l, m, PLACE_QUANTITY, d->kind == DEFINED_INVARIANT ? "an invariant" : "a quantity");
     if (!lower_target(&l, s, &o)) return false;
     if (o.loops != o.to.dims) {
-        source_complain(&m->source, MOTUS_SHAPE, &s->at, "%s[…] needs an index that runs", d->name);
+        source_complain(&m->source, MOTUS_SHAPE, &s->at, "%s[…] needs an index with a range", d->name);
         return false;
     }
     outputs into = {&d->outputs, &d->output_count, 0, 1};

@@ -148,8 +148,8 @@ static bool complain_name(finding *f, const tree *t)
     const model_function *function = symbols_find(f->model, t->name).function;
     char text[80];
     if (function) {
-        source_complain(s, MOTUS_SYNTAX, &t->at, "%s is a function and needs its arguments, in a bracket glued to it",
-                        t->name);
+        source_complain(s, MOTUS_SYNTAX, &t->at,
+                        "%s is a function and needs its arguments in a bracket directly behind it", t->name);
         source_hint(s, "it is defined as %s", as_defined(f, function, text));
         return false;
     }

@@ -33,7 +33,7 @@ bool settings_all(model *m, read_method known)
         }
         seen[s->kind] = true;
         if (seen[STATEMENT_TOLERANCE] && seen[STATEMENT_ACCURACY]) {
-            source_complain(&m->source, MOTUS_ARGUMENT, &s->at, "a tolerance and an accuracy are set");
+            source_complain(&m->source, MOTUS_ARGUMENT, &s->at, "both a tolerance and an accuracy are set");
             source_hint(&m->source, "keep one: `accuracy` is the error of the answer, `tolerance` that of one step");
             return false;
         }

@@ -274,7 +274,7 @@ static bool lower_assignment(model *m, model_rule *r, lowering *l, const action 
         quote(m, &a->target->at, text);
         if (to.count)
             COMPLAIN(m, &a->value->at, "%s is a vector of length %d, but this is %s", text, to.count,
-                     is.boolean || is.rows ? "none"
+                     is.boolean || is.rows ? "a condition or a matrix"
                      : is.count            ? "of another length"
                                            : "a number");
         else
@@ -292,7 +292,7 @@ static bool lower_stop(model *m, model_rule *r, const action *a)
 {
     double after = 1;
     if (r->stop) {
-        COMPLAIN(m, &a->at, "an event stops the run once");
+        COMPLAIN(m, &a->at, "`stop` stands twice in one event");
         return false;
     }
     if (a->value && !resolve_constant(m, a->value, "the number of events before the stop", &after)) return false;
@@ -310,7 +310,7 @@ static bool lower_action(model *m, model_rule *r, lowering *l, const action *a)
     if (a->kind == ACTION_STOP) return lower_stop(m, r, a);
     if (a->kind == ACTION_ASSIGN) return lower_assignment(m, r, l, a);
     if (r->records) {
-        COMPLAIN(m, &a->at, "an event is recorded once");
+        COMPLAIN(m, &a->at, "`record` stands twice in one event");
         return false;
     }
     return r->records = true;

@@ -151,7 +151,7 @@ static void parse_left(parser *p, statement *s)
         else
             COMPLAIN(p, &s->name_at, "%s is a word of the language and cannot be defined", s->name);
         if (!strcmp(s->name, "if"))
-            HINT(p, "what is to happen is an event, when y < 0: y' = -y'; a value with two cases is if(y < 0, a, b)");
+            HINT(p, "for an event write when y < 0: y' = -y'; for a value with two cases if(y < 0, a, b)");
         HINT(p, "take another name");
         return;
     }
