@@ -39,9 +39,9 @@ typedef enum operation_nature {
     HAS_DOMAIN = 1 << 8,              /* it has no value for whole ranges of its operand */
     WAVES = 1 << 9,                   /* it rises and falls while its operand moves by a few units */
     HIDES = 1 << 10,   /* it may change within a small part of its operand's way, which a step may pass over */
-    RISES = 1 << 11,   /* it increases with its only operand */
-    SINKS = 1 << 12,   /* it decreases with its only operand */
-    IS_EVEN = 1 << 13, /* it increases with the size of its only operand */
+    RISES = 1 << 11,   /* it never falls as its only operand rises */
+    SINKS = 1 << 12,   /* it never rises as its only operand rises */
+    IS_EVEN = 1 << 13, /* it never falls as the size of its only operand rises */
     IN_PAIRS = 1 << 14 /* its series has another function beside it, which shares the evaluation */
 } operation_nature;
 

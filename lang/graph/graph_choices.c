@@ -73,8 +73,7 @@ node graph_choices(graph *g, node root)
     const unsigned moving = DEP_TIME | DEP_STATE;
     graph_walk w;
     if (!(g->nodes[root].deps & moving) || !graph_order(g, &root, 1, moving, false, &w)) return root;
-    node *as = take(&g->arena->allocator, w.count, sizeof *as);
-    if (!as) g->arena->failed = true;
+    node *as = graph_walk_room(g, &w, sizeof *as);
     for (uint32_t k = 0; as && k < w.count; k++) {
         as[k] = w.nodes[k];
         if (g->nodes[w.nodes[k]].op == OP_SUM) as[k] = of_sum(g, g->nodes[w.nodes[k]]);

@@ -54,8 +54,7 @@ node graph_derivative(graph *g, node root, graph_seed seed, void *ctx)
     graph_walk w;
     const unsigned moving = DEP_TIME | DEP_STATE | DEP_D | DEP_PARAM | DEP_LEVELS;
     if (!graph_order(g, &root, 1, moving, true, &w)) return 0;
-    node *d = take(&g->arena->allocator, w.count, sizeof *d);
-    if (!d) g->arena->failed = true;
+    node *d = graph_walk_room(g, &w, sizeof *d);
     /* Leaves first: a seed may walk the graph itself, which overwrites `place`; the rules need it. */
     for (uint32_t k = 0; d && k < w.count; k++) {
         uint8_t op = g->nodes[w.nodes[k]].op;
@@ -77,10 +76,7 @@ node graph_derivative(graph *g, node root, graph_seed seed, void *ctx)
                 d[k] = graph_derivative_rule(g, &n, w.nodes[k], dn);
     }
     g->simplify = before;
-    node result = d && w.count ? d[w.count - 1] : 0;
-    give(&g->arena->allocator, d);
-    give(&g->arena->allocator, w.nodes);
-    return g->arena->failed || g->too_large ? 0 : result;
+    return graph_walk_end(g, &w, d);
 }
 
 /* Seeds ------------------------------------------------------------------------------------------------------------ */

@@ -79,8 +79,7 @@ node graph_radius(graph *g, node root, graph_seed leaf, void *ctx)
 {
     graph_walk w;
     if (!graph_order(g, &root, 1, 0, true, &w)) return 0;
-    node *r = take(&g->arena->allocator, w.count, sizeof *r);
-    if (!r) g->arena->failed = true;
+    node *r = graph_walk_room(g, &w, sizeof *r);
     for (uint32_t k = 0; r && k < w.count && !g->arena->failed && !g->too_large; k++) {
         const graph_node n = g->nodes[w.nodes[k]];
         node operand[3], of[3] = {0, 0, 0};
@@ -92,8 +91,5 @@ node graph_radius(graph *g, node root, graph_seed leaf, void *ctx)
             r[k] = add(g, rounding(g, w.nodes[k], 49),
                        n.op == OP_CONST || n.op == OP_INDEX ? 0 : leaf(g, w.nodes[k], ctx));
     }
-    const node result = r && w.count ? r[w.count - 1] : 0;
-    give(&g->arena->allocator, r);
-    give(&g->arena->allocator, w.nodes);
-    return g->arena->failed || g->too_large ? 0 : result;
+    return graph_walk_end(g, &w, r);
 }

@@ -27,8 +27,7 @@ static node replaced(graph *g, node root, int level, const replacing *how)
     graph_walk w;
     if (!(g->nodes[root].deps & how->deps)) return root;
     if (!graph_order(g, &root, 1, how->deps, false, &w)) return 0;
-    node *as = take(&g->arena->allocator, w.count, sizeof *as);
-    if (!as) g->arena->failed = true;
+    node *as = graph_walk_room(g, &w, sizeof *as);
     /* Leaves first: `with` may walk the graph itself, which overwrites `place`. */
     for (uint32_t k = 0; as && k < w.count; k++) {
         const graph_node n = g->nodes[w.nodes[k]];
@@ -44,10 +43,7 @@ static node replaced(graph *g, node root, int level, const replacing *how)
         if (n.op == OP_SUM || !graph_operands_as(g, &w, &n, as, operand, &same) || same) continue;
         as[k] = graph_op(g, (operation)n.op, operand[0], operand[1], operand[2]);
     }
-    const node result = as && w.count ? as[w.count - 1] : 0;
-    give(&g->arena->allocator, as);
-    give(&g->arena->allocator, w.nodes);
-    return g->arena->failed || g->too_large ? 0 : result;
+    return graph_walk_end(g, &w, as);
 }
 
 node graph_replace(graph *g, node root, unsigned deps, int level, graph_substitute with, void *ctx)

@@ -51,8 +51,7 @@ node graph_rounding(graph *g, node root, graph_seed leaf, void *ctx)
 {
     graph_walk w;
     if (!graph_order(g, &root, 1, 0, true, &w)) return 0;
-    node *e = take(&g->arena->allocator, w.count, sizeof *e);
-    if (!e) g->arena->failed = true;
+    node *e = graph_walk_room(g, &w, sizeof *e);
     const bool before = g->simplify;
     g->simplify = true;
     for (uint32_t k = 0; e && k < w.count && !g->arena->failed && !g->too_large; k++) {
@@ -66,8 +65,5 @@ node graph_rounding(graph *g, node root, graph_seed leaf, void *ctx)
                                   : leaf(g, w.nodes[k], ctx);
     }
     g->simplify = before;
-    const node result = e && w.count ? e[w.count - 1] : 0;
-    give(&g->arena->allocator, e);
-    give(&g->arena->allocator, w.nodes);
-    return g->arena->failed || g->too_large ? 0 : result;
+    return graph_walk_end(g, &w, e);
 }

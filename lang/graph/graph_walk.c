@@ -69,6 +69,21 @@ void graph_order_again(graph *g, const graph_walk *w)
     for (uint32_t k = 0; k < w->count; k++) g->place[w->nodes[k]] = k;
 }
 
+void *graph_walk_room(graph *g, const graph_walk *w, size_t size)
+{
+    void *room = take(&g->arena->allocator, w->count, size);
+    if (!room) g->arena->failed = true;
+    return room;
+}
+
+node graph_walk_end(graph *g, const graph_walk *w, node *image)
+{
+    const node last = image && w->count ? image[w->count - 1] : 0;
+    give(&g->arena->allocator, image);
+    give(&g->arena->allocator, w->nodes);
+    return g->arena->failed || g->too_large ? 0 : last;
+}
+
 /* Degree ----------------------------------------------------------------------------------------------------------- */
 
 static int at_most_2(int degree) { return degree > 2 ? 2 : degree; }
@@ -80,9 +95,8 @@ int graph_degree(graph *g, node root, unsigned deps)
     if (!(g->nodes[root].deps & deps)) return 0;
     graph_walk w;
     if (!graph_order(g, &root, 1, deps, true, &w)) return 2;
-    uint8_t *degree = take(&g->arena->allocator, w.count, 1);
+    uint8_t *degree = graph_walk_room(g, &w, 1);
     int result = 2;
-    if (!degree) g->arena->failed = true;
     for (uint32_t k = 0; degree && k < w.count; k++) {
         const graph_node *n = &g->nodes[w.nodes[k]];
         node operand[3];

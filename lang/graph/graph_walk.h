@@ -17,6 +17,10 @@ typedef struct graph_walk {
 bool graph_order(graph *, const node *roots, size_t count, unsigned deps, bool into_sums, graph_walk *);
 /* Restores `place` for a walk after another one. */
 void graph_order_again(graph *, const graph_walk *);
+/* Takes room for an image of every node of a walk. NULL: no memory, and the arena is marked failed. */
+void *graph_walk_room(graph *, const graph_walk *, size_t size);
+/* Gives back a walk and the images of its nodes; returns the last image, or 0 after a failure. */
+node graph_walk_end(graph *, const graph_walk *, node *image);
 static inline bool graph_reached(const graph *g, const graph_walk *w, node n)
 {
     return g->place[n] < w->count && w->nodes[g->place[n]] == n;

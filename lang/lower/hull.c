@@ -49,12 +49,8 @@ static bool gather_hull(model *m, model_state *s, bool boundary)
     {
         if (one->kind != STATEMENT_EQUATION && !(boundary && one->kind == STATEMENT_DEFINITION)) continue;
         if ((int)one->index_count != s->dims) { return hull_indices_wrong(m, s, one->at); }
-        lowering l;
-        output o = {0};
         int64_t first[MAX_DIMS], last[MAX_DIMS];
-        lower_start(&l, m, PLACE_CONSTANT, "an index");
-        if (!lower_target(&l, one, &o)) return false;
-        lower_extent(m, &l, &o, first, last);
+        if (!lower_places(m, one, first, last)) return false;
         for (int d = 0; d < s->dims; d++) {
             int64_t *lo = boundary ? &s->first[d] : &s->eq_first[d], *hi = boundary ? &s->last[d] : &s->eq_last[d];
             if (!any || first[d] < *lo) *lo = first[d];
@@ -70,12 +66,8 @@ static bool mark_owners(model *m, model_state *s)
     EACH_LINE(m, s, one)
     {
         if (one->kind != STATEMENT_EQUATION && one->kind != STATEMENT_DEFINITION) continue;
-        lowering l;
-        output o = {0};
         int64_t first[MAX_DIMS], last[MAX_DIMS];
-        lower_start(&l, m, PLACE_CONSTANT, "an index");
-        if (!lower_target(&l, one, &o)) return false;
-        lower_extent(m, &l, &o, first, last);
+        if (!lower_places(m, one, first, last)) return false;
         if (!hull_mark(m, s, one, first, last, s->owner, one->kind == STATEMENT_EQUATION ? 1 : 2, true)) return false;
         if (lower_is_ghost(m, one) && !lower_add_ghost(m, s, one, first, last)) return false;
     }

@@ -80,6 +80,8 @@ bool lower_subscript(lowering *, const tree *, subscript *, int64_t *first, int6
 bool lower_loops(lowering *, const loop *, uint32_t count, range *out);
 bool lower_is_index(const lowering *, const char *name);
 
+/* Finds the range of each index on the left side of a line. False: it complained, or there is no memory. */
+bool lower_places(model *, const statement *, int64_t first[], int64_t last[]);
 /* Finds the range of each index of a left side that lower_target has read. */
 void lower_extent(const model *, const lowering *, const output *, int64_t first[], int64_t last[]);
 

@@ -333,3 +333,13 @@ void lower_extent(const model *m, const lowering *l, const output *o, int64_t fi
         }
     }
 }
+
+bool lower_places(model *m, const statement *s, int64_t first[], int64_t last[])
+{
+    lowering l;
+    output o = {0};
+    lower_start(&l, m, PLACE_CONSTANT, "an index");
+    if (!lower_target(&l, s, &o)) return false;
+    lower_extent(m, &l, &o, first, last);
+    return true;
+}

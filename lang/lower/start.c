@@ -190,15 +190,11 @@ static bool own_lines(model *m, model_state *s, int primes)
     memset(s->start_own[primes], 0, s->hull * sizeof *s->start_own[primes]);
     for (uint32_t i = s->line; i; i = m->statements.item[i - 1].next) {
         const statement *one = &m->statements.item[i - 1];
-        lowering l;
-        output o = {0};
         int64_t first[MAX_DIMS], last[MAX_DIMS];
         if (one->kind != STATEMENT_START || one->primes != primes || one->loop_count > 0 ||
             (int)one->index_count != s->dims)
             continue;
-        lower_start(&l, m, PLACE_CONSTANT, "an index");
-        if (!lower_target(&l, one, &o)) return false;
-        lower_extent(m, &l, &o, first, last);
+        if (!lower_places(m, one, first, last)) return false;
         bool inside = true;
         for (int d = 0; d < s->dims; d++) inside &= first[d] >= s->first[d] && first[d] <= s->last[d];
         if (inside) s->start_own[primes][model_cell(s->dims, s->first, s->last, first)] = i;

@@ -94,8 +94,7 @@ static node with_sides(graph *g, node root, int level, const replacement *how)
     graph_walk w;
     if (!(graph_deps(g, root) & DEP_MODE)) return root;
     if (!graph_order(g, &root, 1, DEP_MODE, false, &w)) return 0;
-    node *as = take(&g->arena->allocator, w.count, sizeof *as);
-    if (!as) g->arena->failed = true;
+    node *as = graph_walk_room(g, &w, sizeof *as);
     for (uint32_t k = 0; as && k < w.count; k++) {
         const graph_node n = *graph_at(g, w.nodes[k]);
         as[k] = w.nodes[k];
@@ -116,10 +115,7 @@ static node with_sides(graph *g, node root, int level, const replacement *how)
             choice = how->choice(g, was[0], operand[1], operand[2], how->ctx);
         as[k] = choice ? choice : same ? w.nodes[k] : graph_op(g, (operation)n.op, operand[0], operand[1], operand[2]);
     }
-    const node result = as && w.count ? as[w.count - 1] : 0;
-    give(&g->arena->allocator, as);
-    give(&g->arena->allocator, w.nodes);
-    return g->arena->failed || g->too_large ? 0 : result;
+    return graph_walk_end(g, &w, as);
 }
 
 /* How the equations depend on the part at which a comparison is held, in place of its side. */

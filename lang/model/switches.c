@@ -458,8 +458,7 @@ static node rewrite(builder *b, node root, const nest *around)
     graph_walk w;
     if (b->s->refused || !(graph_deps(g, root) & MOVING) || !graph_order(g, &root, 1, MOVING, false, &w)) return root;
     operands *operands_of = places_of(g, &w);
-    node *map = take(&g->arena->allocator, w.count, sizeof *map);
-    if (!map) g->arena->failed = true;
+    node *map = graph_walk_room(g, &w, sizeof *map);
     for (uint32_t k = 0; k < w.count && !broken(b) && !b->s->refused; k++) {
         const graph_node n = g->nodes[w.nodes[k]];
         node to[3] = {0, 0, 0};

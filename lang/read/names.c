@@ -213,18 +213,11 @@ static bool complain_kept(finding *f, const tree *t)
 {
     source *s = &f->model->source;
     const tree *event = t->item[1];
-    char text[80];
     if (!kept_rule(f->model, t)) {
-        source_complain(s, MOTUS_NAME, &event->at, "there is no event %s", source_excerpt(s, &event->at, text, 80));
+        rule_names_unknown(f->model, &event->at, event->kind == TREE_NAME && !event->index_count ? event->name : NULL);
         if (event->kind == TREE_NAME && event->index_count)
             source_hint(s, "the events of a family have one name and are counted together: %s(%s)", t->item[0]->name,
                         event->name);
-        for (uint32_t i = 0; event->kind == TREE_NAME && i < f->model->rule_count; i++)
-            if (near_likely(event->name, f->model->rules[i].name)) {
-                source_hint(s, "did you mean %s?", f->model->rules[i].name);
-                source_repair(s, event->name, "%s", f->model->rules[i].name);
-                return false;
-            }
         source_hint(s, "an event gets its name by `as`: when y = 0 as bounce: …");
         return false;
     }

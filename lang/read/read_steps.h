@@ -33,6 +33,8 @@ static inline const char *quote(const model *m, const span *at, char out[80])
 /* Parts of the steps. */
 const span *mode_assigned_at(const model *, const model_definition *); /* where an event first assigns it */
 bool layout_finish(model *);                                           /* what follows from the places of the states */
+/* Complains that there is no event of a name, and hints at a likely one; name NULL: the place has none. */
+bool rule_names_unknown(model *, const span *at, const char *name);
 bool when_add(model *, model_rule *, const model_assignment *);
 
 #endif

@@ -44,19 +44,26 @@ static bool free_name(model *m, const statement *s, const char *name)
     return false;
 }
 
+bool rule_names_unknown(model *m, const span *at, const char *name)
+{
+    char text[80];
+    source_complain(&m->source, MOTUS_NAME, at, "there is no event %s", quote(m, at, text));
+    for (uint32_t i = 0; name && i < m->rule_count; i++)
+        if (near_likely(name, m->rules[i].name)) {
+            source_hint(&m->source, "did you mean %s?", m->rules[i].name);
+            source_repair(&m->source, name, "%s", m->rules[i].name);
+            break;
+        }
+    return false;
+}
+
 /* Finds the rule of `when NAME accumulates`. */
 static bool find_accumulating(model *m, model_rule *r)
 {
     const when *w = r->statement->when;
     const model_rule *of = find(m, w->of);
     if (!of) {
-        source_complain(&m->source, MOTUS_NAME, &w->of_at, "there is no event %s", w->of);
-        for (uint32_t i = 0; i < m->rule_count; i++)
-            if (near_likely(w->of, m->rules[i].name)) {
-                source_hint(&m->source, "did you mean %s?", m->rules[i].name);
-                source_repair(&m->source, w->of, "%s", m->rules[i].name);
-                return false;
-            }
+        rule_names_unknown(m, &w->of_at, w->of);
         source_hint(&m->source, "an event gets its name by `as`: when y = 0 as %s: …", w->of);
         return false;
     }
