@@ -121,8 +121,8 @@ static bool exchangeable(writer *w, const plan_region *r)
     return true;
 }
 
-/* Returns whether a family has the cells of those before whose pairs are taken once: they share the room for partial
- * sums. */
+/* Returns whether a family has the cells of the families so far whose pairs are taken once: they share the room for
+ * partial sums. */
 static bool same_cells(const emit *e, const range *r)
 {
     return !e->pair_sums || (same_bound(&e->pair_range.first, &r->first) && same_bound(&e->pair_range.last, &r->last));

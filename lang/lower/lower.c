@@ -1,4 +1,4 @@
-/* Lowers an expression that another one contains, in each kind of place for it. */
+/* Lowers expressions that other expressions contain. */
 #include "lang/lower/lower_parts.h"
 
 void lower_start(lowering *l, model *m, lower_place place, const char *what)

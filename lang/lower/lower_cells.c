@@ -148,7 +148,7 @@ typedef struct moved_index {
     bool failed;
 } moved_index;
 
-/* Puts a place, another index plus a constant, for an index. */
+/* Replaces an index by a place: another index plus a constant. */
 static node moved(graph *g, node n, int level, void *moved_ctx)
 {
     moved_index *to = moved_ctx;

@@ -11,7 +11,7 @@ bool resolve_start_time(model *);
 /* Evaluates an expression that must be constant and finite, and logs what it decides. what: its name in messages, which
  * must outlive the model. */
 bool resolve_constant(model *, const tree *, const char *what, double *out);
-/* Evaluates such an expression that decides no more than its number, and returns its node, too. */
+/* Evaluates an expression that must be constant and finite, logs nothing, and returns its node, too. */
 bool resolve_varying(model *, const tree *, const char *what, node *, double *out);
 
 #endif

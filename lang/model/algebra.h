@@ -45,7 +45,7 @@ typedef struct algebra_atom {
     size_t at;
     poly a, b;
     uint32_t next;
-    uint8_t apart; /* for algebra_jump.c: POW: 1: the base has no zero but at single places; 2: it has; 0: not known */
+    uint8_t apart; /* for algebra_jump.c, POW: 1: a has zeros at single places at most; 2: it has more; 0: not known */
     uint32_t sloped; /* the atom by which `slope` is the derivative; 0: none is known */
     poly slope;
 } algebra_atom;

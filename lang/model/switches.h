@@ -58,8 +58,7 @@ typedef struct switches {
     output *touch, *touch_rate;  /* by kind: the argument of the touch, with sides in it, and its rate */
 } switches;
 
-/* Finds the switches of accelerations and boundary lines; `directions` are switches, too, if wanted. False: no
- * memory. */
+/* Finds the switches of accelerations and boundary lines; directions: they are switches, too. False: no memory. */
 bool switches_find(model *, bool directions, switches *);
 /* Return how many switches a kind has, the kind of switch k, and the shape of a kind. */
 size_t switches_cells(const switches *, size_t kind);

@@ -104,7 +104,7 @@ static size_t mark(const place *p, size_t root, const twofold *value, bool *take
     return moving;
 }
 
-/* Returns the first taken node that is no number although its operands are. */
+/* Returns the first marked node that is no number although its operands are. */
 static size_t first_undefined(const place *p, const twofold *value, const bool *taken)
 {
     const graph *g = p->model->graph;
