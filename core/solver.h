@@ -28,7 +28,7 @@ double solver_shift(double y, double size, bool linear);
 int solver_factor(solver *, const double *ax, const double *av, double t, double *x, double *v, int64_t *evaluations);
 /* Returns the factored matrix, by which solver_back divides, if it is diagonal and constant; else NULL. */
 const double *solver_diagonal(const solver *);
-void solver_back(solver *, double *r);
+void solver_back(solver *, double *r);                                     /* r becomes the solution z */
 void solver_apply(const solver *, double c, const double *y, double *out); /* out = (I + c da/dv) y */
 
 /* A sparse matrix by columns: column c has the rows row[start[c]] … row[start[c+1]-1], ascending. */

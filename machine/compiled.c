@@ -111,25 +111,20 @@ motus_status compiled_create(model *m, const problem *interpreted, compiled **ou
 {
     compiled *c = arena_room(m->arena, sizeof *c);
     if (!c) return fail(err, MOTUS_MEMORY, "no memory for the model");
-    memset(c, 0, sizeof *c);
     c->model = m;
     c->interpreted = interpreted;
-    c->problem = (problem){.ctx = c,
-                           .nx = m->nx,
-                           .modes = m->modes,
-                           .nv = m->nv,
-                           .variables = interpreted->variables,
-                           .variable_count = interpreted->variable_count,
-                           .accel = accel,
-                           .jvp = interpreted->jvp ? jvp : NULL,
-                           .prepare = interpreted->prepare ? prepare : NULL,
-                           .pattern = interpreted->pattern ? pattern : NULL,
-                           .series_numbers = interpreted->series_numbers ? series_numbers : NULL,
-                           .series = interpreted->series ? series : NULL,
-                           .refresh = interpreted->refresh ? refresh : NULL,
-                           .exact = interpreted->exact ? exact : NULL,
-                           .exact_rounding = interpreted->exact_rounding ? exact_rounding : NULL,
-                           .name = name};
+    c->problem = *interpreted;
+    c->problem.ctx = c;
+    c->problem.accel = accel;
+    if (interpreted->jvp) c->problem.jvp = jvp;
+    if (interpreted->prepare) c->problem.prepare = prepare;
+    if (interpreted->pattern) c->problem.pattern = pattern;
+    if (interpreted->series_numbers) c->problem.series_numbers = series_numbers;
+    if (interpreted->series) c->problem.series = series;
+    if (interpreted->refresh) c->problem.refresh = refresh;
+    if (interpreted->exact) c->problem.exact = exact;
+    if (interpreted->exact_rounding) c->problem.exact_rounding = exact_rounding;
+    c->problem.name = name;
     *out = c;
     return MOTUS_OK;
 }
