@@ -3,8 +3,6 @@
 
 #include "lang/lower/lower_ghost.h"
 
-#include <string.h>
-
 bool hull_indices_wrong(model *m, const model_state *s, span at)
 {
     static const char *const indices[] = {"", "[i]", "[i,j]", "[i,j,k]", "[i,j,k,l]"};
@@ -108,7 +106,6 @@ bool hull_find(model *m, model_state *s)
         s->hull = (size_t)numbers;
         s->owner = arena_room(m->arena, s->hull);
         if (!s->owner) return false;
-        memset(s->owner, 0, s->hull);
         if (!mark_owners(m, s)) return false;
     }
     s->progress = 2;

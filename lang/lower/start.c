@@ -151,7 +151,6 @@ static bool start_maps(model *m, model_state *s)
         if (s->start_map[primes]) continue;
         s->start_map[primes] = arena_room(m->arena, s->hull);
         if (!s->start_map[primes]) return false;
-        memset(s->start_map[primes], 0, s->hull);
     }
     return true;
 }
@@ -187,7 +186,6 @@ static bool own_lines(model *m, model_state *s, int primes)
     if (s->start_own[primes]) return true;
     s->start_own[primes] = arena_room(m->arena, s->hull * sizeof *s->start_own[primes]);
     if (!s->start_own[primes]) return false;
-    memset(s->start_own[primes], 0, s->hull * sizeof *s->start_own[primes]);
     for (uint32_t i = s->line; i; i = m->statements.item[i - 1].next) {
         const statement *one = &m->statements.item[i - 1];
         int64_t first[MAX_DIMS], last[MAX_DIMS];

@@ -439,7 +439,6 @@ static bool prepare(model *m, switches *s)
     if (s->hold_kinds == 0) return !m->arena->failed && !m->graph->too_large;
     bool *taken = arena_room(m->arena, 2 * (m->accel_count + 1) * sizeof *taken), *tried = taken + m->accel_count + 1;
     if (!taken) return false;
-    memset(taken, 0, m->accel_count * sizeof *taken);
     for (size_t k = 0; k < s->kinds; k++) {
         graph *g = m->graph;
         output rate = s->rate[k];

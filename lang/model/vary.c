@@ -204,7 +204,6 @@ motus_status vary_create(model *m, const size_t *places, size_t count, bool own_
     uint8_t *changed = arena_room(a, nodes + 1);
     if (!v->places || !v->affected || !v->active || !changed)
         return fail(err, MOTUS_MEMORY, "no memory for what varies");
-    memset(v->affected, 0, m->pool_count + 1);
     for (size_t k = 0; k < count; k++) {
         v->places[k] = places[k];
         v->affected[places[k]] = 1;

@@ -1,8 +1,6 @@
 /* Lays the states out in x and v, and makes the five blocks of arrays over them (model.h). */
 #include "lang/read/read_steps.h"
 
-#include <string.h>
-
 /* Makes the list of variables in the order of x and v, and the start. */
 bool layout_finish(model *m)
 {
@@ -17,8 +15,6 @@ bool layout_finish(model *m)
     m->x0 = arena_room(m->arena, (m->nx + 1) * sizeof *m->x0);
     m->v0 = arena_room(m->arena, (m->nv + 1) * sizeof *m->v0);
     if (!m->x0 || !m->v0) return false;
-    memset(m->x0, 0, (m->nx + 1) * sizeof *m->x0);
-    memset(m->v0, 0, (m->nv + 1) * sizeof *m->v0);
     model_start_state(m);
     return true;
 }

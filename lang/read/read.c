@@ -90,7 +90,6 @@ motus_status read_model(arena *a, const motus_text_def *def, const read_how *how
         return fail(err, MOTUS_LIMIT, "the model has %zu bytes; at most %d are read", length, SOURCE_BYTES_MAX);
     model *m = arena_room(a, sizeof *m);
     if (!m) return fail(err, MOTUS_MEMORY, "no memory for the model");
-    memset(m, 0, sizeof *m);
     m->arena = a;
     m->lower = lower_tree;
     m->draft = def->draft > 0;

@@ -140,7 +140,6 @@ static bool write(writer *w, arena *a, int length)
     s->last = arena_room(a, (items + 1) * sizeof *s->last);
     s->at = arena_room(a, (items + 1) * sizeof *s->at);
     if (!s->regions || !s->last || !s->at) return false;
-    memset(s->regions, 0, regions * sizeof *s->regions);
     for (uint32_t k = 0; k < items; k++) s->last[k] = w->expansion.values[k].last;
     for (uint32_t r = 0; r < regions; r++)
         put_region(w, r); /* the region of a loop has a higher number than the one around it */
