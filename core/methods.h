@@ -39,6 +39,8 @@ bool row_uniform(const chosen *);
 bool row_formula(const chosen *);
 /* Tells whether the row is only for velocity terms of the form v × B. */
 bool row_gyroscopic(const chosen *);
+/* Tells whether a step multiplies what has the rate λ by a function of h λ alone. */
+bool row_rates(const chosen *);
 /* Tells whether steps adapt, so that their number is not known beforehand. */
 bool row_adaptive(const chosen *);
 /* Tells whether steps adapt and bound the accelerations within them (name_swing), so that the row can be watched

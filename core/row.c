@@ -26,6 +26,12 @@ bool row_uniform(const chosen *method) { return method->row->uniform; }
 bool row_adaptive(const chosen *method) { return method->row->adaptive; }
 
 bool row_formula(const chosen *method) { return row_has(method->row, FORMULA); }
+bool row_rates(const chosen *method)
+{
+    const row *r = method->row;
+    const bool trapezoidal = method->argument[0] == 0.25 && method->argument[1] == 0.5;
+    return row_has(r, RATES) && !r->tableau.aa && (!r->newmark || trapezoidal);
+}
 bool row_gyroscopic(const chosen *method) { return method->row->gyroscopic; }
 bool row_watched(const chosen *method) { return method->row->adaptive && row_has(method->row, SWINGS); }
 bool row_bounded_by_ends(const chosen *method)

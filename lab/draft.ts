@@ -45,7 +45,7 @@ function methodOf(description: Description, catalogue: readonly Method[]): strin
   const admitted = (name: string): boolean => description.methods.some((m) => m.name === name && m.admitted);
   const first = description.velocity_dependent ? 'gauss8' : 'kahan-li8';
   if (admitted(first)) return first;
-  const others = catalogue.filter((m) => m.family !== 'exact' && !m.adaptive && m.order >= 4 && admitted(m.name));
+  const others = catalogue.filter((m) => !m.adaptive && m.order >= 4 && admitted(m.name));
   return others.sort((a, b) => b.order - a.order)[0]?.name ?? null;
 }
 

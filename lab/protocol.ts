@@ -80,8 +80,8 @@ export interface Method {
   readonly name: string; readonly aliases: readonly string[]; readonly title: string; readonly family: string;
   readonly order: number; readonly stages: number; readonly evaluations: number;
   readonly symplectic: boolean; readonly reversible: boolean; readonly stability_limit: number;
-  /** It chooses its steps by a tolerance. */
-  readonly adaptive: boolean;
+  /** adaptive: it chooses its steps by a tolerance. by_rates: its stability follows from hλ alone, whatever the force is made of. */
+  readonly adaptive: boolean; readonly by_rates: boolean;
   readonly cite: string; readonly formula: string; readonly use: string;
 }
 

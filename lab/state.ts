@@ -84,7 +84,7 @@ export function admittedMethods(state: State, description: Description, catalogu
   if (!methods.length) {
     const own = description.settings.automatic ? AUTO : description.settings.method || 'verlet';
     const admitted = (name: string): boolean => name === AUTO || description.methods.some(m => m.name === family(name) && m.admitted);
-    methods.push(admitted(own) ? own : description.methods.find(m => m.admitted && m.name !== 'exact')?.name ?? own);
+    methods.push(admitted(own) ? own : catalogue.find(m => m.order > 0 && admitted(m.name))?.name ?? own);
   }
   return { methods, refused };
 }

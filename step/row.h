@@ -24,7 +24,10 @@ typedef enum family_fact {
      * watched (watch.h) */
     SWINGS = 1 << 4,
     /* where steps adapt, a candidate evaluates every stage of the plan once */
-    COUNTS = 1 << 5
+    COUNTS = 1 << 5,
+    /* a step multiplies what has the rate λ by a function of h λ alone, whatever the force is made of, unless the row
+     * has coefficients of its own for the positions */
+    RATES = 1 << 6
 } family_fact;
 
 struct row {

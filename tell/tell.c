@@ -42,6 +42,7 @@ static void method(json *j, const motus_method *m)
     json_bool(j, "reversible", m->reversible);
     json_bool(j, "adaptive", m->adaptive);
     json_number(j, "stability_limit", m->stability_limit); /* null: none */
+    json_bool(j, "by_rates", motus_method_by_rates(m->name));
     json_string(j, "cite", m->cite);
     json_string(j, "formula", m->formula);
     json_string(j, "use", m->use);

@@ -15,6 +15,12 @@ motus_status motus_method_find(const char *name, const motus_method **out, motus
     return status;
 }
 
+int motus_method_by_rates(const char *name)
+{
+    chosen c;
+    return name && row_choose(name, &c, NULL, NULL) == MOTUS_OK && row_rates(&c);
+}
+
 motus_status motus_method_admits(const motus_system *given, const char *name, motus_error *err)
 {
     if (!motus_error_sound(err)) return MOTUS_ARGUMENT;

@@ -26,7 +26,7 @@ function halfOf(method: Method): number {
   const limit = method.stability_limit;
   if (!Number.isFinite(limit)) return 5;
   // With 1.25 and TALL the limit lies on a line of the grid, where the border has its corner.
-  return Math.max(2.4, 1.25 * limit, method.family === 'runge-kutta' ? 0.9 * method.stages : 0);
+  return Math.max(2.4, 1.25 * limit, method.by_rates && method.evaluations > 0 ? 0.9 * method.stages : 0);
 }
 
 /** log growth at z, from the grid; NaN outside. */

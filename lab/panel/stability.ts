@@ -28,8 +28,8 @@ const PAUSE = 120, PLANE = { aspect: 0.78, tallest: 0.8 };
 
 const cardOf = (scene: Scene, name: string): Method | undefined =>
   scene.catalogue.find((m) => m.name === name || m.aliases.includes(name)) ?? scene.catalogue.find((m) => name.startsWith(`${m.name}(`) || name.startsWith(`${m.name} (`));
-/** It is a map of hλ alone, whatever the force is made of. */
-const byRates = (card: Method, name: string): boolean => card.family === 'runge-kutta' || (card.family === 'implicit' && name === card.name);
+/** With arguments a card's fact need not hold. */
+const byRates = (card: Method, name: string): boolean => card.by_rates && !name.includes('(');
 
 /** By the catalogue where nothing has friction; by its rates where the method is a map of them; else by its own step on the motion linearised. */
 export async function limitOf(limits: Limits, motion: Motion, name: string, card: Method): Promise<Limit> {
@@ -72,7 +72,7 @@ export const stability: PanelMaker = (store): Panel => {
   let plane: Plane | null = null, planeFor = '', whole = false;
   let growth: Float64Array | null = null, growthFor = '';
 
-  const methods = (): Look[] => scene?.looks.filter((look) => cardOf(scene!, look.method)?.family !== 'exact' && cardOf(scene!, look.method)) ?? [];
+  const methods = (): Look[] => scene?.looks.filter((look) => cardOf(scene!, look.method)?.order) ?? [];
   const main = (): Method | undefined => { const look = methods()[0]; return scene && look ? cardOf(scene, look.method) : undefined; };
   const step = (): number => Math.abs(scene?.solution.tracks[0]?.step ?? scene?.description.settings.step ?? 0);
   const unit = (): string => (scene ? timeUnit(scene) : '');

@@ -79,7 +79,7 @@ export function methods(store: LiveStore): { readonly element: HTMLElement; repa
     if (store.state.preset !== opened || !front.length) { opened = store.state.preset; front = now; }
     const first = [...front, ...common.filter(name => !front.includes(name))].slice(0, Math.max(5, front.length)), names = [...auto, ...first, ...now.filter(name => !first.includes(name))];
     const admitted = (name: string): boolean => store.description?.methods.find(m => m.name === name)?.admitted ?? true;
-    const unused = store.catalogue.map(m => m.name).filter(name => !names.includes(name) && name !== 'exact');
+    const unused = store.catalogue.filter(m => m.order > 0 && !names.includes(m.name)).map(m => m.name);
     const others = [...unused.filter(admitted), ...unused.filter(name => !admitted(name))];
     const key = names.join() + '|' + others.join();
     if (key === shown || !store.catalogue.length) return;

@@ -30,10 +30,10 @@ function limit(h: number): string {
 
 /** In a few words each. */
 function facts(method: Method): string[] {
-  if (method.family === 'exact') return [words.cards.exact];
+  if (method.order === 0) return [words.cards.exact];
   return [
     words.cards.order(String(method.order)),
-    method.family === 'implicit' ? words.cards.implicit : words.cards.evaluations(method.evaluations),
+    method.evaluations === 0 ? words.cards.implicit : words.cards.evaluations(method.evaluations),
     method.symplectic ? words.cards.symplectic : words.cards.notSymplectic,
     method.reversible ? words.cards.reversible : words.cards.notReversible,
     limit(method.stability_limit),
