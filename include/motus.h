@@ -433,7 +433,18 @@ MOTUS_API motus_status motus_initial_values(const motus_system *, size_t k, doub
 MOTUS_API motus_status motus_system_set(motus_system *, const char *name, const double *values, size_t count,
                                         motus_error *);
 
-/* The settings of the model. NaN, 0 or NULL: the model does not set it. */
+/* Who says a setting. */
+typedef enum motus_said {
+    MOTUS_SAID_NOBODY, /* it is NaN, or NULL */
+    MOTUS_SAID_CALLER, /* the definition of a run or an ensemble */
+    MOTUS_SAID_MODEL,
+    MOTUS_SAID_ASIDE, /* the model says it of its own method or error, and the definition asks for another one */
+    MOTUS_SAID_DEFAULT,
+    MOTUS_SAID_SUGGESTED /* motus_suggest */
+} motus_said;
+
+/* The settings of a model (motus_settings_of), or those that a definition leads to (motus_run_settings), and who says
+ * each of them. NaN, 0 or NULL: nobody does. */
 typedef struct motus_settings {
     uint32_t size;      /* by motus_default_settings() */
     const char *method; /* "verlet", "newmark(0.25, 0.5)", "auto" */
@@ -448,8 +459,9 @@ typedef struct motus_settings {
     /* motus_suggest fills these in for a system with `draft`: why it chose this step and this end, "60 to a swing",
      * "three swings". Else "". */
     char step_why[MOTUS_NAME_MAX], until_why[MOTUS_NAME_MAX];
-    int absolute; /* 1: the tolerance or the accuracy is absolute */
-    int unused;
+    int absolute;  /* 1: the tolerance or the accuracy is absolute */
+    int automatic; /* 1: a run chooses its method ("auto"), where its definition names none and gives no step */
+    motus_said method_said, step_said, from_said, until_said, tolerance_said, accuracy_said;
 } motus_settings;
 MOTUS_DEFAULT_FUNCTION(settings, SETTINGS, motus_settings)
 MOTUS_API motus_status motus_settings_of(const motus_system *, motus_settings *);
@@ -563,6 +575,9 @@ MOTUS_API const motus_method *motus_method_at(size_t k); /* NULL: k is past the 
  * may be NULL. MOTUS_METHOD: there is no such method, and the hint names the nearest one; or the arguments are
  * wrong. */
 MOTUS_API motus_status motus_method_find(const char *name, const motus_method **found, motus_error *);
+/* Returns 1 if a step of the method multiplies every motion of a linear force by a function of h λ alone, where λ is
+ * its rate, so that motus_stability tells its stability for any force. 0: it does not, or there is no such method. */
+MOTUS_API int motus_method_by_rates(const char *method);
 /* Returns MOTUS_OK if the method can integrate the system. MOTUS_METHOD: it cannot, for the reason in `message`, and
  * `hint` names the nearest method that can; or there is no such method. */
 MOTUS_API motus_status motus_method_admits(const motus_system *, const char *method, motus_error *);
@@ -710,6 +725,12 @@ MOTUS_DEFAULT_FUNCTION(run, RUN, motus_run_def)
  * motus_run_finish does, and calls `progress`; else it does not evaluate the acceleration of a callback. */
 MOTUS_API motus_status motus_run_create(motus_system *, const motus_run_def *, motus_run **, motus_error *);
 MOTUS_API void motus_run_destroy(motus_run *);
+/* Tells what a run of this definition is asked for, without making it: every setting, and who says it. The definition
+ * comes first, then the model, then a default; a step or an end that is still missing is that of motus_suggest, which
+ * takes time. step: NaN where steps adapt or an accuracy decides them; tolerance: NaN where steps have one size or an
+ * accuracy decides it. A callback may lack a step or an end. Fails as motus_run_create does where that does not
+ * integrate; the settings are then what is asked for. */
+MOTUS_API motus_status motus_run_settings(motus_system *, const motus_run_def *, motus_settings *, motus_error *);
 
 /* Takes n >= 0 steps, or fewer if `until` comes first; the last step is shorter where it must end at `until`.
  * MOTUS_ACCURACY: the run is at its end, and its accuracy was not reached; err->message says what was. MOTUS_DIVERGED:
@@ -1115,6 +1136,13 @@ MOTUS_DEFAULT_FUNCTION(ensemble, ENSEMBLE, motus_ensemble_def)
 MOTUS_API motus_status motus_ensemble_create(motus_system *, const motus_ensemble_def *, motus_ensemble **,
                                              motus_error *);
 MOTUS_API void motus_ensemble_destroy(motus_ensemble *);
+/* Tells what an ensemble of this definition is asked for, as motus_run_settings does; `records` may be empty. A step
+ * that is suggested is the shortest that one of `trajectories` trajectories needs, those at the ends of what varies,
+ * say, with values as in motus_ensemble_run; 0 trajectories: that of the system as it is. Trajectories that have no
+ * step, since they stop at once, do not count. Where the ends vary they are not read, and the model's is left aside.
+ * MOTUS_NAME: as motus_ensemble_create. */
+MOTUS_API motus_status motus_ensemble_settings(motus_system *, const motus_ensemble_def *, size_t trajectories,
+                                               const double *const *values, motus_settings *, motus_error *);
 /* Returns whether motus_ensemble_run would take these values: MOTUS_OK, or what that returns before it computes. */
 MOTUS_API motus_status motus_ensemble_check(motus_ensemble *, size_t count, const double *const *values, motus_error *);
 /* Decides, where errors are told, whether the force does more within the steps of the trajectories than steps show: it
@@ -1203,13 +1231,6 @@ static inline motus_ensemble_statistics motus_ensemble_now(const motus_ensemble 
 /* Counts the operations of a step, of the equations and of the method, in units of a multiplication: they are not
  * timed, and so equal on every machine. NaN: there is no memory to count them. */
 MOTUS_API double motus_ensemble_step_work(motus_ensemble *);
-/* Suggests settings for an ensemble, as motus_suggest does: the step is the shortest that one of `trajectories`
- * trajectories needs, those at the ends of what varies, say. `count` names and values: as `vary` of motus_ensemble_def
- * and the values of motus_ensemble_run; `until` among them is not read. Trajectories that have no step, since they stop
- * at once, do not count. The end is that of the system as it is. Fails as motus_suggest does, and with MOTUS_NAME as
- * motus_ensemble_create. */
-MOTUS_API motus_status motus_suggest_varied(motus_system *, size_t count, const char *const *names, size_t trajectories,
-                                            const double *const *values, motus_settings *, motus_error *);
 /* Finds by how many powers of ten an error grows up to the end because steps are too long, where the motion of one of
  * the trajectories swings or decays: from the spectral radius of the steps (motus_stability) at the rates along it. The
  * settings give method, step and end. More than 1: such a run is not the motion. 0: not known, or steps adapt. */

@@ -411,7 +411,7 @@ static motus_status prepare(compare *c, motus_system *system, motus_error *err)
         hint(err, "give the definition a step; motus_suggest finds one");
         return MOTUS_ARGUMENT;
     }
-    status = study_open(s, system, &c->def, c->def.evaluations > 0 ? 0 : c->step, err);
+    status = study_open(s, system, &c->def, &settings, c->def.evaluations > 0 ? 0 : c->step, err);
     if (status == MOTUS_OK) status = study_methods(s, &c->def, false, &c->methods, &c->count);
     if (status == MOTUS_OK) status = find_columns(c);
     if (status != MOTUS_OK) return status;

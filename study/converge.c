@@ -480,9 +480,11 @@ motus_status motus_converge(motus_system *system, const motus_study_def *given, 
         return fail(err, MOTUS_ARGUMENT, "motus_converge needs a system and a place for its result");
     *convergence = NULL;
     converge c = {.uncut = NAN};
+    motus_settings settings;
     const modes host = modes_enter();
     motus_status status = study_read(given, &c.def, err);
-    if (status == MOTUS_OK) status = study_open(&c.s, system, &c.def, 0, err);
+    if (status == MOTUS_OK) status = study_settings(system, &c.def, &settings, err);
+    if (status == MOTUS_OK) status = study_open(&c.s, system, &c.def, &settings, 0, err);
     if (status == MOTUS_OK) status = study_methods(&c.s, &c.def, true, &c.methods, &c.count);
     if (status == MOTUS_OK) status = make_result(&c);
     if (status == MOTUS_OK) status = converge_all(&c);

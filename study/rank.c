@@ -374,9 +374,11 @@ motus_status motus_rank(motus_system *system, const motus_study_def *given, motu
     if (!system || !ranking) return fail(err, MOTUS_ARGUMENT, "motus_rank needs a system and a place for its result");
     *ranking = NULL;
     rank r = {.asked = 0};
+    motus_settings settings;
     const modes host = modes_enter();
     motus_status status = read_def(&r, given, err);
-    if (status == MOTUS_OK) status = study_open(&r.s, system, &r.def, 0, err);
+    if (status == MOTUS_OK) status = study_settings(system, &r.def, &settings, err);
+    if (status == MOTUS_OK) status = study_open(&r.s, system, &r.def, &settings, 0, err);
     if (status == MOTUS_OK) status = study_methods(&r.s, &r.def, true, &r.methods, &r.count);
     if (status == MOTUS_OK) status = make_result(&r);
     if (status == MOTUS_OK) {

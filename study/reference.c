@@ -73,12 +73,12 @@ static motus_status prepare(motus_reference *r, motus_system *system, const motu
 {
     study *s = &r->s;
     motus_study_def def;
-    motus_settings settings = motus_default_settings();
+    motus_settings settings;
     motus_status status = study_read(given, &def, err);
+    if (status == MOTUS_OK) status = study_settings(system, &def, &settings, err);
     if (status != MOTUS_OK) return status;
-    motus_settings_of(system, &settings);
-    double step = isnan(def.step) ? settings.step : def.step;
-    if ((status = study_open(s, system, &def, step, err)) != MOTUS_OK) return status;
+    const double step = settings.step_said == MOTUS_SAID_SUGGESTED ? NAN : settings.step;
+    if ((status = study_open(s, system, &def, &settings, step, err)) != MOTUS_OK) return status;
     r->t = NAN;
     r->y = take(s->allocator, s->numbers, sizeof(double));
     if (!r->y) return fail(err, MOTUS_MEMORY, "out of memory for a state of %zu numbers", s->numbers);

@@ -128,14 +128,12 @@ motus_status study_read(const motus_study_def *given, motus_study_def *def, motu
 
 motus_status study_settings(motus_system *system, const motus_study_def *def, motus_settings *set, motus_error *err)
 {
+    motus_run_def run = motus_default_run();
     *set = motus_default_settings();
-    motus_settings_of(system, set);
-    if (isnan(set->from)) set->from = 0;
-    if (!isnan(def->step)) set->step = def->step;
-    if (!isnan(def->until)) set->until = def->until;
-    if (motus_statement_count(system) == 0 || (!isnan(set->step) && !isnan(set->until))) return MOTUS_OK;
-    set->method = STUDY_SIMPLEST; /* the model's own method need not be among those that are studied */
-    return motus_suggest(system, set, err);
+    run.method = STUDY_SIMPLEST; /* the model's own method need not be among those that are studied */
+    run.step = def->step;
+    run.until = def->until;
+    return motus_run_settings(system, &run, set, err);
 }
 
 static void find_groups(study *s)
@@ -159,7 +157,8 @@ static motus_status refuse_undeclared(motus_run *trial, motus_error *err)
     return MOTUS_CALLBACK;
 }
 
-motus_status study_open(study *s, motus_system *system, const motus_study_def *def, double step, motus_error *err)
+motus_status study_open(study *s, motus_system *system, const motus_study_def *def, const motus_settings *set,
+                        double step, motus_error *err)
 {
     *s = (study){.system = system,
                  .err = err,
@@ -172,11 +171,8 @@ motus_status study_open(study *s, motus_system *system, const motus_study_def *d
     s->nx = motus_positions(system);
     s->nv = motus_velocities(system);
     s->numbers = s->nx + s->nv;
-    motus_settings settings;
-    motus_status status = study_settings(system, def, &settings, err);
-    if (status != MOTUS_OK) return status;
-    s->from = settings.from;
-    s->until = settings.until;
+    s->from = set->from;
+    s->until = set->until;
     if (isnan(s->until)) {
         fail(err, MOTUS_ARGUMENT, "the study has no end: neither its definition nor the model gives one");
         hint(err, "give the definition an end; motus_suggest finds one");
@@ -196,7 +192,7 @@ motus_status study_open(study *s, motus_system *system, const motus_study_def *d
     motus_run *run = NULL;
     double trial = step > 0 ? step : fabs(s->until - s->from) / 64;
     if (!(trial > 0)) trial = 1;
-    status = study_run(s, STUDY_SIMPLEST, trial, NAN, s->until, NULL, &run, err);
+    motus_status status = study_run(s, STUDY_SIMPLEST, trial, NAN, s->until, NULL, &run, err);
     if (status == MOTUS_OK) status = study_state(s, run, s->start, err);
     if (status == MOTUS_OK) {
         s->from = motus_run_time(run);

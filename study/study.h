@@ -71,10 +71,11 @@ typedef struct study_cost {
 
 /* Reads and checks the definition, into the layout of this version. */
 motus_status study_read(const motus_study_def *given, motus_study_def *def, motus_error *err);
-/* Finds the start, the end and the groups. step: of the trial run, if above 0. Call study_close in any case. */
-motus_status study_open(study *, motus_system *, const motus_study_def *, double step, motus_error *err);
+/* Finds the start and the groups. step: of the trial run, if above 0. Call study_close in any case. */
+motus_status study_open(study *, motus_system *, const motus_study_def *, const motus_settings *, double step,
+                        motus_error *err);
 void study_close(study *);
-/* Finds step, start and end: of the definition, else of the model, else suggested. NaN: a callback has none. */
+/* Settles step, start and end, as a run by STUDY_SIMPLEST has them. NaN: a callback has none. */
 motus_status study_settings(motus_system *, const motus_study_def *, motus_settings *, motus_error *);
 
 bool study_admits(study *, const char *method);

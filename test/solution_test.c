@@ -146,9 +146,11 @@ static void kept_rows_are_returned_unchanged(void **state)
     motus_reference *r = reference_of(s, NULL);
     motus_error err = motus_default_error();
     motus_study_def def = motus_default_study();
+    motus_settings set;
     study inner;
     solution found;
-    must(study_open(&inner, s, &def, 0.1, &err), &err, "study_open");
+    must(study_settings(s, &def, &set, &err), &err, "study_settings");
+    must(study_open(&inner, s, &def, &set, 0.1, &err), &err, "study_open");
     const study_grid grid = solution_grid(&inner, 0.1);
     must(solution_find(&inner, &grid, inner.total, 0, &found), &err, "solution_find");
     assert_int_equal(grid.points, 123);

@@ -163,34 +163,91 @@ static void varied(void **state)
     (void)state;
     motus_error err = motus_default_error();
     motus_system *s = given_text("k = 1e6; x'' = -k x; x(0) = 1; x'(0) = 0");
-    const char *names[] = {"k", "until", "x(0)"};
-    const double k[] = {1, 100, 4}, ends[] = {1, 2, 3}, x[] = {1, 2, INFINITY}, *values[] = {k, ends, x};
+    const char *names[] = {"k", "until", "x(0)"}, *numbers[] = {"k", "x(0)"};
+    const double k[] = {1, 100, 4}, ends[] = {1, 2, 3}, x[] = {1, 2, INFINITY};
+    const double *values[] = {k, ends, x}, *both[] = {k, x};
+    motus_ensemble_def def = motus_default_ensemble();
     motus_settings set = motus_default_settings();
-    set.until = 50;
-    must(motus_suggest_varied(s, 3, names, 3, values, &set, &err), &err, "motus_suggest_varied");
+    def.vary = numbers, def.vary_count = 2;
+    def.until = 50;
+    must(motus_ensemble_settings(s, &def, 3, both, &set, &err), &err, "motus_ensemble_settings");
     assert_true(set.step == 0.005 && set.until == 50 && fabs(set.rate - 10) < 1e-9);
-    set = motus_default_settings();
-    must(motus_suggest_varied(s, 3, names, 1, values, &set, &err), &err, "motus_suggest_varied");
+    assert_true(set.step_said == MOTUS_SAID_SUGGESTED && set.until_said == MOTUS_SAID_CALLER);
+    def.until = NAN;
+    must(motus_ensemble_settings(s, &def, 1, both, &set, &err), &err, "motus_ensemble_settings");
     assert_true(set.step == 0.05 && set.until == 0.05); /* at least one step */
     motus_parameter p = motus_default_parameter();
     double own;
     must(motus_parameter_at(s, 0, &p), NULL, "parameter");
     must(motus_parameter_values(s, 0, &own), NULL, "parameter");
     assert_true(own == 1e6); /* the system is as it was */
-    set = motus_default_settings();
-    assert_int_equal(motus_suggest_varied(s, 1, (const char *[]){"q"}, 1, values, &set, &err), MOTUS_NAME);
-    assert_int_equal(motus_suggest_varied(s, 1, NULL, 1, values, &set, &err), MOTUS_ARGUMENT);
-    assert_int_equal(motus_suggest_varied(s, 1, names, 1, NULL, &set, &err), MOTUS_ARGUMENT);
-    must(motus_suggest_varied(s, 0, NULL, 0, NULL, &set, &err), &err, "nothing varies");
+    def.vary = names, def.vary_count = 3;
+    must(motus_ensemble_settings(s, &def, 3, values, &set, &err), &err, "where the ends vary");
+    assert_true(set.step > 0 && isnan(set.until) && set.until_said == MOTUS_SAID_NOBODY);
+    assert_int_equal(motus_ensemble_settings(s, &def, 1, NULL, &set, &err), MOTUS_ARGUMENT);
+    def.vary = (const char *[]){"q"}, def.vary_count = 1;
+    assert_int_equal(motus_ensemble_settings(s, &def, 1, values, &set, &err), MOTUS_NAME);
+    def.vary_count = 0;
+    must(motus_ensemble_settings(s, &def, 0, NULL, &set, &err), &err, "nothing varies");
     assert_true(set.rate > 999);
     motus_system_destroy(s);
     s = given_text("x'' = -9.81 sin(x); x(0) = 0; x'(0) = 0");
-    const double starts[] = {1.5707963267948966, 3.14159}, *both[] = {starts};
-    set = motus_default_settings();
-    set.until = 1000;
-    must(motus_suggest_varied(s, 1, (const char *[]){"x(0)"}, 2, both, &set, &err), &err, "motus_suggest_varied");
+    const double starts[] = {1.5707963267948966, 3.14159}, *places[] = {starts};
+    def.vary = (const char *[]){"x(0)"}, def.vary_count = 1;
+    def.until = 1000;
+    must(motus_ensemble_settings(s, &def, 2, places, &set, &err), &err, "motus_ensemble_settings");
     assert_true(set.step == 0.02);
     motus_system_destroy(s);
+}
+
+/* Who says what: the definition before the model, the model before a default, and what is missing is suggested. */
+static void said(void **state)
+{
+    (void)state;
+    enum { NOBODY = MOTUS_SAID_NOBODY, CALLER, MODEL, ASIDE, DEFAULT, SUGGESTED };
+    static const struct {
+        const char *text, *method; /* of the model; of the definition */
+        double step, tolerance, accuracy;
+        const char *settled;
+        int who[5]; /* method, step, tolerance, accuracy, until */
+    } rows[] = {
+        {"", NULL, NAN, NAN, NAN, "auto", {DEFAULT, NOBODY, NOBODY, DEFAULT, SUGGESTED}},
+        {"step 0.1; until 5", NULL, NAN, NAN, NAN, "verlet", {DEFAULT, MODEL, NOBODY, NOBODY, MODEL}},
+        {"step 0.1", "rk4", NAN, NAN, NAN, "rk4", {CALLER, ASIDE, NOBODY, NOBODY, SUGGESTED}},
+        {"step 0.1", "dop853", NAN, NAN, NAN, "dop853", {CALLER, ASIDE, DEFAULT, NOBODY, SUGGESTED}},
+        {"until 5", "verlet", NAN, NAN, NAN, "verlet", {CALLER, SUGGESTED, NOBODY, NOBODY, MODEL}},
+        {"until 5", NULL, 0.1, NAN, NAN, "verlet", {DEFAULT, CALLER, NOBODY, NOBODY, MODEL}},
+        {"method verlet; accuracy 1e-6; until 5", NULL, NAN, NAN, NAN, "verlet", {MODEL, NOBODY, NOBODY, MODEL, MODEL}},
+        {"method dopri5; tolerance 1e-6", NULL, NAN, NAN, 1e-3, "auto", {DEFAULT, NOBODY, ASIDE, CALLER, SUGGESTED}},
+        {"accuracy 1e-6", NULL, NAN, 1e-5, NAN, "auto", {DEFAULT, NOBODY, CALLER, ASIDE, SUGGESTED}},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        char text[200];
+        motus_error err = motus_default_error();
+        motus_run_def def = motus_default_run();
+        motus_settings set = motus_default_settings();
+        snprintf(text, sizeof text, "x'' = -x; x(0) = 1; x'(0) = 0; %s", rows[i].text);
+        motus_system *s = given_text(text);
+        def.method = rows[i].method;
+        def.step = rows[i].step;
+        def.tolerance = rows[i].tolerance;
+        def.accuracy = rows[i].accuracy;
+        must(motus_run_settings(s, &def, &set, &err), &err, text);
+        const int who[] = {(int)set.method_said, (int)set.step_said, (int)set.tolerance_said, (int)set.accuracy_said,
+                           (int)set.until_said};
+        if (strcmp(set.method, rows[i].settled) != 0) fail_msg("row %zu: method %s", i, set.method);
+        for (int k = 0; k < 5; k++)
+            if (who[k] != rows[i].who[k]) fail_msg("row %zu, setting %d: %d says it", i, k, who[k]);
+        /* the run itself has what the record tells */
+        motus_run *run = NULL;
+        must(motus_run_create(s, &def, &run, &err), &err, text);
+        if (!set.automatic) assert_string_equal(motus_run_now(run).method, set.method);
+        if (!isnan(set.step)) assert_true(motus_run_now(run).step == set.step);
+        must(motus_run_finish(run, &err), &err, text);
+        assert_true(motus_run_time(run) == set.until);
+        motus_run_destroy(run);
+        motus_system_destroy(s);
+    }
 }
 
 /* Explicit Euler takes x'' = -w^2 x to (1 + w^2 h^2)^(1/2) of its size in a step, and rk4 leaps a pendulum by steps of
@@ -353,7 +410,7 @@ int main(void)
         cmocka_unit_test(rates),      cmocka_unit_test(slow_and_fast), cmocka_unit_test(given_numbers_stay),
         cmocka_unit_test(everywhere), cmocka_unit_test(callbacks),     cmocka_unit_test(wrong_requests),
         cmocka_unit_test(no_scale),   cmocka_unit_test(stable_steps),  cmocka_unit_test(varied),
-        cmocka_unit_test(growth),
+        cmocka_unit_test(said),       cmocka_unit_test(growth),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,8 @@
 /* Ensembles: the public calls. See api/ensemble/ensemble.h. */
 #include "api/request/choice.h"
 #include "api/ensemble/ensemble.h"
+#include "api/search/goal.h"
+#include "api/search/suggest.h"
 #include "api/system/system.h"
 #include "api/motion/run_events.h"
 
@@ -42,8 +44,14 @@ motus_status motus_ensemble_create(motus_system *s, const motus_ensemble_def *gi
     motus_status status = motus_struct_read(MOTUS_DEF_ENSEMBLE, given, &d, err);
     ensemble_goal *goal = NULL;
     if (status == MOTUS_OK) status = check(s, &d, err);
-    if (status == MOTUS_OK) status = ensemble_accuracy_begin(s, &d, &goal, err);
-    if (status == MOTUS_OK) status = ensemble_make(s, &d, goal, NULL, out, err);
+    if (status != MOTUS_OK) return status;
+    const modes m = modes_enter();
+    request q = request_of_ensemble(s, &d);
+    status = goal_admits(s, &q, err);
+    if (status == MOTUS_OK) status = suggest_missing(s, &q, err);
+    if (status == MOTUS_OK) status = ensemble_accuracy_begin(s, &d, &q, &goal, err);
+    modes_leave(m);
+    if (status == MOTUS_OK) status = ensemble_make(s, &d, &q, goal, NULL, out, err);
     if (status != MOTUS_OK) ensemble_accuracy_end(goal);
     return status;
 }

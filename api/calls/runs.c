@@ -172,7 +172,7 @@ const char *motus_run_text(motus_system *s, const motus_run_def *given, motus_er
         return NULL;
     }
     request q = request_of_run(s, &def);
-    if (q.method_said == SAID_DEFAULT) q.method = "verlet";
+    if (q.set.method_said == MOTUS_SAID_DEFAULT) q.set.method = "verlet";
     if (request_choose(s, &q, err) != MOTUS_OK) return NULL;
     if (!s->compiled && compiled_create(s->model, &s->problem, &s->compiled, err) != MOTUS_OK) return NULL;
     const char *text = compiled_text(s->compiled, &q.chosen, &length);

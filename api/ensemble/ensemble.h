@@ -44,6 +44,7 @@ typedef struct ensemble_goal {
     double wanted;
     bool told;              /* the caller asks for errors */
     motus_ensemble_def def; /* without what it pointed to */
+    request request;        /* with the first tolerance */
     const char *machine;
     struct ensemble_other *others; /* one for each other tolerance */
     /* of the caller; each part of the search takes half of what is left of a call */
@@ -300,17 +301,16 @@ motus_status ensemble_run_all(motus_ensemble *, size_t count, const double *cons
 
 /* ---- ensemble_make.c ---- */
 
-/* Makes an ensemble by a definition that is sound and complete. goal: the ensemble's, with which it has one more
+/* Makes an ensemble by a sound definition and its settled request. goal: the ensemble's, with which it has one more
  * record, or NULL. like: an ensemble that supplies what varies, since the names are gone, or NULL. */
-motus_status ensemble_make(motus_system *, const motus_ensemble_def *, ensemble_goal *goal, const motus_ensemble *like,
-                           motus_ensemble **, motus_error *);
+motus_status ensemble_make(motus_system *, const motus_ensemble_def *, const request *, ensemble_goal *goal,
+                           const motus_ensemble *like, motus_ensemble **, motus_error *);
 void ensemble_free(motus_ensemble *); /* keeps the goal */
 
 /* ---- ensemble_accuracy.c: every trajectory has a tolerance of its own ---- */
 
-/* Completes the definition by a first tolerance and by bars, and makes the goal, where the definition or the model asks
- * for an accuracy. */
-motus_status ensemble_accuracy_begin(motus_system *, motus_ensemble_def *, ensemble_goal **, motus_error *);
+/* Puts a first tolerance into a settled request for an accuracy, and bars into its definition, and makes the goal. */
+motus_status ensemble_accuracy_begin(motus_system *, motus_ensemble_def *, request *, ensemble_goal **, motus_error *);
 void ensemble_accuracy_end(ensemble_goal *);
 motus_status ensemble_accuracy_run(motus_ensemble *, size_t count, const double *const *values, const places *,
                                    motus_error *);

@@ -14,8 +14,6 @@
 #include <math.h>
 #include <stdio.h>
 
-#define METHOD "dop853" /* the default; it admits every force */
-
 typedef struct ensemble_other {
     struct ensemble_other *next;
     double tolerance;
@@ -30,51 +28,38 @@ static int tell(void *context, double fraction)
 
 /* ---- the definition ---- */
 
-static motus_status refuse_fixed(const char *method, motus_error *err)
+/* Gives a request a tolerance in place of its accuracy. */
+static motus_status ask(motus_system *s, request *q, double tolerance, motus_error *err)
 {
-    fail(err, MOTUS_ARGUMENT, "an accuracy is asked for, and the steps of %s have one size", method);
-    hint(err, "choose an adaptive method, dop853 or taylor: every trajectory then has a tolerance of its own");
-    return MOTUS_ARGUMENT;
+    q->set.accuracy = NAN;
+    q->set.tolerance = tolerance, q->set.tolerance_said = MOTUS_SAID_DEFAULT;
+    return request_choose(s, q, err);
 }
 
-static motus_status judge(const motus_ensemble_def *d, const request *q, const char *method, motus_error *err)
+motus_status ensemble_accuracy_begin(motus_system *s, motus_ensemble_def *d, request *q, ensemble_goal **out,
+                                     motus_error *err)
 {
-    chosen row;
-    const motus_method *card = NULL;
-    motus_status status = search_alone(!isnan(d->accuracy) && !isnan(d->tolerance), request_asks(q->step_said), err);
-    if (status == MOTUS_OK) status = request_admits("an accuracy", q->accuracy, q->absolute, err);
-    if (status != MOTUS_OK || row_choose(method, &row, &card, NULL) != MOTUS_OK) return status;
-    return card->adaptive ? MOTUS_OK : refuse_fixed(card->name, err);
-}
-
-motus_status ensemble_accuracy_begin(motus_system *s, motus_ensemble_def *d, ensemble_goal **out, motus_error *err)
-{
-    const request q = request_of_ensemble(s, d);
+    const double wanted = q->set.accuracy;
     *out = NULL;
-    if (isnan(q.accuracy)) return MOTUS_OK;
-    const char *const method = q.automatic && q.method_said != SAID_CALLER ? METHOD : q.method;
-    motus_status status = judge(d, &q, method, err);
-    if (status != MOTUS_OK) return status;
+    if (isnan(wanted)) return MOTUS_OK;
     bool automatic, compiled;
-    status = choice_machine(d->machine, &automatic, &compiled, err);
+    motus_status status = choice_machine(d->machine, &automatic, &compiled, err);
+    if (status == MOTUS_OK) status = ask(s, q, search_by_tolerance(wanted, q->set.absolute).size, err);
     if (status != MOTUS_OK) return status;
     ensemble_goal *g = *out = take(&s->allocator, 1, sizeof *g);
     if (!g) return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
     *g = (ensemble_goal){.allocator = s->allocator,
-                         .wanted = q.accuracy,
+                         .wanted = wanted,
                          .told = d->error != MOTUS_BARS_NONE,
                          .machine = automatic  ? "auto"
                                     : compiled ? "compiled"
                                                : "interpreter",
                          .progress = d->progress,
                          .context = d->context};
-    d->method = method;
-    d->accuracy = NAN;
     if (!g->told) d->error = MOTUS_BARS_CHEAP;
-    d->absolute = q.absolute;
-    d->tolerance = search_by_tolerance(q.accuracy, q.absolute).size;
     if (d->progress) d->progress = tell, d->context = g;
     g->def = *d;
+    g->request = *q;
     return MOTUS_OK;
 }
 
@@ -124,7 +109,7 @@ static void miss(attempt *a, size_t number)
 static void list_open(attempt *a, size_t count)
 {
     const ensemble_goal *g = a->goal;
-    search s = search_by_tolerance(g->wanted, g->def.absolute);
+    search s = search_by_tolerance(g->wanted, g->request.set.absolute);
     search_set(&s, tally_tolerance(&a->e->chosen)); /* reversible rows take a smaller one */
     s.few = true;
     for (size_t k = 0; k < count; k++) {
@@ -146,13 +131,13 @@ static motus_status find_other(attempt *a, double tolerance, motus_ensemble **ou
     if (!o) return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
     const motus_ensemble *e = a->e;
     motus_ensemble_def def = g->def;
-    def.tolerance = tolerance;
-    def.method = e->chosen.name;
+    request q = g->request;
     def.machine = e->awaits ? "interpreter" : g->machine; /* a compiler is already at work for the text */
     def.records = e->records, def.record_count = e->record_count;
     def.event_columns = e->event_columns;
     *o = (other){.next = g->others, .tolerance = tolerance};
-    const motus_status status = ensemble_make(e->system, &def, NULL, e, &o->ensemble, err);
+    motus_status status = ask(e->system, &q, tolerance, err);
+    if (status == MOTUS_OK) status = ensemble_make(e->system, &def, &q, NULL, e, &o->ensemble, err);
     if (status != MOTUS_OK) {
         give(&g->allocator, o);
         return status;
@@ -231,7 +216,7 @@ static motus_status say_missed(const attempt *a, size_t count, motus_error *err)
              which);
     else
         fail(err, MOTUS_ACCURACY, "the accuracy %s is not reached by %s: its trials reached %.1e%s at best", wanted,
-             which, best, a->goal->def.absolute ? "" : " of the motion's size");
+             which, best, a->goal->request.set.absolute ? "" : " of the motion's size");
     if (isinf(best))
         hint(err, "errors grow with the time: end earlier, with a smaller `until` of the definition");
     else

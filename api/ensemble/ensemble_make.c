@@ -1,7 +1,6 @@
 /* The making of an ensemble, from a definition that is complete. See ensemble.h. */
 #include "api/ensemble/ensemble.h"
 #include "api/system/system.h"
-#include "api/search/suggest.h"
 #include "machine/parallel.h"
 
 #include <math.h>
@@ -48,61 +47,49 @@ static void take_places(motus_ensemble *e, const motus_ensemble *like)
     memcpy(e->home_places, like->home_places, e->vary_count * sizeof *e->home_places);
 }
 
-static motus_status complete(motus_ensemble *e, const motus_ensemble_def *d, const motus_ensemble *like,
-                             motus_error *err)
+static motus_status complete(motus_ensemble *e, const motus_ensemble_def *d, const request *q,
+                             const motus_ensemble *like, motus_error *err)
 {
     motus_system *s = e->system;
-    request q = request_of_ensemble(s, d);
-    motus_status status = request_row(s, q.method, &e->chosen, &e->card, err);
-    if (status == MOTUS_OK) status = system_rules(s, &e->rules, err);
+    motus_status status = system_rules(s, &e->rules, err);
     if (status == MOTUS_OK) status = check_columns(e, err);
     if (like) take_places(e, like);
     if (status == MOTUS_OK && !like) status = find_places(e, d, err);
     if (status == MOTUS_OK && e->error != MOTUS_BARS_NONE) status = ensemble_errors_prepare(e, err);
-    if (status == MOTUS_OK) status = request_choose(s, &q, err);
-    if (status == MOTUS_OK) status = suggest_missing(s, &q, err);
-    const bool ends = e->until != SIZE_MAX; /* each trajectory then gets its own timing later */
-    e->chosen = q.chosen;
-    e->step = q.step;
+    const motus_settings *const set = &q->set;
+    const bool steps = set->step_said == MOTUS_SAID_CALLER || set->step_said == MOTUS_SAID_SUGGESTED;
+    /* where the ends vary, each trajectory gets its own timing later */
     if (status == MOTUS_OK)
-        status = run_timing(&e->chosen, e->step, ends ? s->start : q.until, s->start, &e->timing, err);
+        status = run_timing(&e->chosen, e->step, q->ends ? s->start : set->until, s->start, &e->timing, err);
     if (status == MOTUS_OK && s->model)
         status =
-            vary_create(s->model, e->places, e->vary_count, q.step_said == SAID_CALLER || q.step_said == SAID_SUGGESTED,
-                        ends || q.until_said != SAID_MODEL, &e->vary, err);
+            vary_create(s->model, e->places, e->vary_count, steps, set->until_said != MOTUS_SAID_MODEL, &e->vary, err);
     return status == MOTUS_OK ? ensemble_machine_choose(e, d, err) : status;
 }
 
 /* Finds the located system, by the rule of runs; NULL: the caller's own serves, and `why` says why switches that could
  * have been located are not. */
-static motus_status locate(motus_system *s, const motus_ensemble_def *d, motus_system **out, const char **why,
+static motus_status locate(motus_system *s, const chosen *c, motus_switches asked, motus_system **out, const char **why,
                            motus_error *err)
 {
-    chosen c;
-    const motus_method *card;
-    *out = NULL;
-    *why = "";
-    const motus_switches asked = d->switches;
-    const motus_status status = request_row(s, request_of_ensemble(s, d).method, &c, &card, err);
-    if (status != MOTUS_OK) return status;
     if (asked == MOTUS_SWITCHES_RESOLVE) return fail(err, MOTUS_UNAVAILABLE, "an ensemble does not resolve switches");
-    const motus_status found = located_for(s, &c, asked, out, why, err);
+    const motus_status found = located_for(s, c, asked, out, why, err);
     const bool refused = asked == MOTUS_SWITCHES_LOCATE && !*out && s->model && located_kinks(s->model);
-    if (found != MOTUS_OK || !refused || row_adaptive(&c)) return found;
+    if (found != MOTUS_OK || !refused || row_adaptive(c)) return found;
     fail(err, MOTUS_UNAVAILABLE,
          "steps of one size in an ensemble do not locate switches beyond which the force may be "
          "undefined, and those of %s do not adapt",
-         c.name);
+         c->name);
     hint(err, "choose an adaptive method, dop853 or taylor, or leave `switches` of the definition out");
     return MOTUS_UNAVAILABLE;
 }
 
-motus_status ensemble_make(motus_system *s, const motus_ensemble_def *d, ensemble_goal *goal,
+motus_status ensemble_make(motus_system *s, const motus_ensemble_def *d, const request *q, ensemble_goal *goal,
                            const motus_ensemble *like, motus_ensemble **out, motus_error *err)
 {
     motus_system *home = like ? like->home : NULL, *located = NULL;
     const char *why = "";
-    motus_status status = like ? MOTUS_OK : locate(s, d, &located, &why, err);
+    motus_status status = like ? MOTUS_OK : locate(s, &q->chosen, d->switches, &located, &why, err);
     if (status != MOTUS_OK) return status;
     if (located) home = s, s = located;
     const size_t varied = d->vary_count + 1, records = d->record_count + 1,
@@ -118,7 +105,9 @@ motus_status ensemble_make(motus_system *s, const motus_ensemble_def *d, ensembl
                           .every = d->every,
                           .given = d->vary_count,
                           .until = SIZE_MAX,
-                          .step = d->step,
+                          .chosen = q->chosen,
+                          .card = q->card,
+                          .step = q->set.step,
                           .values = (const double **)(void *)(e + 1),
                           .record_count = d->record_count,
                           .error = d->error,
@@ -141,7 +130,7 @@ motus_status ensemble_make(motus_system *s, const motus_ensemble_def *d, ensembl
     motus_system_hold(s, true);
     if (home) motus_system_hold(home, true);
     modes m = modes_enter();
-    status = complete(e, d, like, err);
+    status = complete(e, d, q, like, err);
     modes_leave(m);
     if (status == MOTUS_OK)
         *out = e, e->goal = goal;

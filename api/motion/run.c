@@ -187,7 +187,7 @@ motus_status run_of(motus_system *own, const request *q, const motus_run_def *de
     r->observer = def->observer;
     r->pace = (pace){.seconds = 0.05, .tell = def->progress ? tell : NULL, .ctx = r};
     timing leg;
-    status = run_timing(&r->chosen, q->step, q->until, q->start, &leg, err);
+    status = run_timing(&r->chosen, q->set.step, q->set.until, q->set.from, &leg, err);
     if (status == MOTUS_OK) run_leg(r, &leg);
     if (status == MOTUS_OK && (def->threads < 0 || def->threads > MOTUS_THREADS_MAX))
         status = fail(err, MOTUS_ARGUMENT, "a run takes 1 to %d threads, not %d", MOTUS_THREADS_MAX, def->threads);

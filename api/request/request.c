@@ -13,65 +13,73 @@
 #include <string.h>
 
 #define RELATIVE_LEAST 1e-15 /* a few roundings */
+#define ACCURACY 1e-9        /* where "auto" chooses the method, and nobody gives an error */
 
-static said who(double callers, double models, bool aside)
+/* What the members that both definitions have ask for. */
+#define ASKED(d)                                                                                    \
+    {                                                                                               \
+        .set = {.size = sizeof(motus_settings),                                                     \
+                .method = (d)->method,                                                              \
+                .step = (d)->step,                                                                  \
+                .from = NAN,                                                                        \
+                .until = (d)->until,                                                                \
+                .tolerance = (d)->tolerance,                                                        \
+                .accuracy = (d)->accuracy,                                                          \
+                .absolute = (d)->absolute != 0},                                                    \
+        .shortest = (d)->shortest_step, .longest = (d)->longest_step, .most_steps = (d)->most_steps \
+    }
+
+/* Takes a number of the model where the caller gives none. Returns who says it; `aside`: the model's does not count. */
+static motus_said merge(double *callers, double models, bool aside)
 {
-    return !isnan(callers) ? SAID_CALLER : isnan(models) ? SAID_NOBODY : aside ? SAID_ASIDE : SAID_MODEL;
+    if (!isnan(*callers)) return MOTUS_SAID_CALLER;
+    if (isnan(models)) return MOTUS_SAID_NOBODY;
+    if (aside) return MOTUS_SAID_ASIDE;
+    *callers = models;
+    return MOTUS_SAID_MODEL;
 }
 
-/* Adds to what the caller says, which the request has, what the model says. chooses: where nobody names a method nor a
- * step, the library chooses it, also where nobody asks for an accuracy. */
-static void add_model(request *q, const motus_system *s, bool chooses)
+/* Adds to what the caller says, which the settings have, what the model says. chooses: where nobody names a method nor
+ * a step, the library chooses it, also where nobody asks for an accuracy. */
+static void add_model(motus_settings *q, const motus_system *s, bool chooses)
 {
-    motus_settings set = motus_default_settings();
-    motus_settings_of(s, &set);
+    const motus_settings set = system_settings(s);
     const bool asks = !isnan(q->accuracy), aside = q->method || (asks && isnan(set.accuracy));
     const bool error = asks || !isnan(q->tolerance) || !isnan(q->step); /* displaces the accuracy of the model */
-    q->accuracy_said = who(q->accuracy, set.accuracy, aside || error);
-    if (q->accuracy_said == SAID_MODEL) q->accuracy = set.accuracy, q->absolute = set.absolute;
-    q->tolerance_said = who(q->tolerance, set.tolerance, aside || !isnan(q->accuracy));
-    if (q->tolerance_said == SAID_MODEL) q->tolerance = set.tolerance, q->absolute = set.absolute;
-    q->step_said = who(q->step, set.step, aside);
+    q->accuracy_said = merge(&q->accuracy, set.accuracy, aside || error);
+    q->tolerance_said = merge(&q->tolerance, set.tolerance, aside || !isnan(q->accuracy));
+    if (q->accuracy_said == MOTUS_SAID_MODEL || q->tolerance_said == MOTUS_SAID_MODEL) q->absolute = set.absolute;
+    q->step_said = merge(&q->step, set.step, aside);
     if (isnan(q->step)) q->step = set.step;
-    q->until_said = who(q->until, set.until, false);
-    if (isnan(q->until)) q->until = set.until;
-    if (isnan(q->start)) q->start = s->start;
-    q->method_said = q->method ? SAID_CALLER : set.method && !aside ? SAID_MODEL : SAID_DEFAULT;
-    if (q->method_said == SAID_MODEL) q->method = set.method;
+    q->until_said = merge(&q->until, set.until, false);
+    q->from_said = merge(&q->from, set.from, false);
+    q->method_said = q->method ? MOTUS_SAID_CALLER : set.method && !aside ? MOTUS_SAID_MODEL : MOTUS_SAID_DEFAULT;
+    if (q->method_said == MOTUS_SAID_MODEL) q->method = set.method;
     if (!isnan(q->accuracy)) chooses = true;
     if (!q->method) q->method = chooses && !request_asks(q->step_said) ? SYSTEM_AUTO : "verlet";
     q->automatic = system_auto(q->method);
+    q->every_time = set.every_time, q->every_steps = set.every_steps;
 }
 
 request request_of_run(const motus_system *s, const motus_run_def *d)
 {
-    request q = {.method = d->method,
-                 .step = d->step,
-                 .tolerance = d->tolerance,
-                 .accuracy = d->accuracy,
-                 .absolute = d->absolute != 0,
-                 .start = d->start,
-                 .until = d->until,
-                 .shortest = d->shortest_step,
-                 .longest = d->longest_step,
-                 .most_steps = d->most_steps};
-    add_model(&q, s, true);
+    request q = ASKED(d);
+    q.set.from = d->start;
+    add_model(&q.set, s, true);
+    if (q.set.automatic && isnan(q.set.accuracy) && isnan(q.set.tolerance))
+        q.set.accuracy = ACCURACY, q.set.accuracy_said = MOTUS_SAID_DEFAULT;
     return q;
 }
 
 request request_of_ensemble(const motus_system *s, const motus_ensemble_def *d)
 {
-    request q = {.method = d->method,
-                 .step = d->step,
-                 .tolerance = d->tolerance,
-                 .accuracy = d->accuracy,
-                 .absolute = d->absolute != 0,
-                 .start = NAN,
-                 .until = d->until,
-                 .shortest = d->shortest_step,
-                 .longest = d->longest_step,
-                 .most_steps = d->most_steps};
-    add_model(&q, s, false);
+    request q = ASKED(d);
+    q.ensemble = true;
+    for (size_t k = 0; k < d->vary_count; k++) q.ends |= d->vary[k] && !strcmp(d->vary[k], "until");
+    add_model(&q.set, s, false);
+    if (q.ends && q.set.until_said == MOTUS_SAID_MODEL) q.set.until_said = MOTUS_SAID_ASIDE;
+    if (!isnan(q.set.accuracy) && q.set.automatic && q.set.method_said != MOTUS_SAID_CALLER)
+        q.set.method = "dop853", q.set.method_said = MOTUS_SAID_DEFAULT, q.set.automatic = 0;
     return q;
 }
 
@@ -146,27 +154,28 @@ motus_status request_row(motus_system *s, const char *name, chosen *chosen, cons
 static motus_status choose_fixed(const request *q, motus_error *err)
 {
     const bool limits = q->shortest != 0 || q->longest != 0 || q->most_steps != 0;
-    if (q->tolerance_said == SAID_CALLER) return refuse_tolerance(&q->chosen, "a tolerance is given", err);
+    if (q->set.tolerance_said == MOTUS_SAID_CALLER) return refuse_tolerance(&q->chosen, "a tolerance is given", err);
     if (limits) return refuse_tolerance(&q->chosen, "limits of the steps are given", err);
-    if (q->tolerance_said == SAID_MODEL) return refuse_tolerance(&q->chosen, "the model sets a tolerance", err);
+    if (q->set.tolerance_said == MOTUS_SAID_MODEL)
+        return refuse_tolerance(&q->chosen, "the model sets a tolerance", err);
     return MOTUS_OK;
 }
 
 motus_status request_choose(motus_system *s, request *q, motus_error *err)
 {
     chosen *const c = &q->chosen;
-    motus_status status = request_row(s, q->method, c, &q->card, err);
+    motus_status status = request_row(s, q->set.method, c, &q->card, err);
     if (status != MOTUS_OK) return status;
     if (!row_adaptive(c)) return choose_fixed(q, err);
-    if (q->step_said == SAID_CALLER) return refuse_step(c, "the definition gives", err);
-    if (q->step_said == SAID_MODEL) return refuse_step(c, "the model sets", err);
-    const double tolerance = isnan(q->tolerance) ? ROW_TOLERANCE : q->tolerance;
-    if (q->absolute && row_reversible_steps(c)) return refuse_absolute(c, err);
-    status = request_admits("a tolerance", tolerance, q->absolute, err);
+    if (q->set.step_said == MOTUS_SAID_CALLER) return refuse_step(c, "the definition gives", err);
+    if (q->set.step_said == MOTUS_SAID_MODEL) return refuse_step(c, "the model sets", err);
+    const double tolerance = isnan(q->set.tolerance) ? ROW_TOLERANCE : q->set.tolerance;
+    if (q->set.absolute && row_reversible_steps(c)) return refuse_absolute(c, err);
+    status = request_admits("a tolerance", tolerance, q->set.absolute, err);
     if (status == MOTUS_OK) status = check_limits(q, err);
     if (status != MOTUS_OK) return status;
-    c->relative = q->absolute ? 0 : fmin(tolerance, stepper_tolerance_most(c));
-    c->absolute = q->absolute ? tolerance : 0;
+    c->relative = q->set.absolute ? 0 : fmin(tolerance, stepper_tolerance_most(c));
+    c->absolute = q->set.absolute ? tolerance : 0;
     c->least = q->shortest;
     c->most = q->longest > 0 ? q->longest : INFINITY;
     c->count = q->most_steps;

@@ -5,36 +5,25 @@
 
 #include "api/system/system.h"
 
-typedef enum said {
-    SAID_NOBODY,
-    SAID_CALLER,
-    SAID_MODEL,
-    SAID_ASIDE, /* the model says it for its own method or error, and the caller asks for another one */
-    SAID_DEFAULT,
-    SAID_SUGGESTED
-} said;
-
 typedef struct request {
-    const char *method;         /* SYSTEM_AUTO, or the name of a row */
-    double step;                /* NaN: none */
-    double tolerance, accuracy; /* NaN: none, or SAID_ASIDE */
-    bool absolute;              /* the tolerance or accuracy is absolute */
-    double start, until;        /* until: NaN where nobody gives an end */
-    said method_said, step_said, tolerance_said, accuracy_said, until_said;
+    /* What is asked for, and who says it. method: SYSTEM_AUTO, or the name of a row; tolerance, accuracy: NaN where
+     * they are MOTUS_SAID_ASIDE. */
+    motus_settings set;
     double shortest, longest; /* limits of the steps; 0: none */
     int64_t most_steps;       /* 0: any number */
-    bool automatic;           /* the method is SYSTEM_AUTO */
+    bool ensemble;            /* it is asked of trajectories, not of a run */
+    bool ends;                /* every trajectory has an end of its own */
     /* After request_choose: the row, with its tolerance and the limits of its steps, and its card. */
     chosen chosen;
     const motus_method *card;
 } request;
 
-/* Settles the request of a run. Where nobody names a method nor a step, the method is SYSTEM_AUTO. */
+/* Settle what is asked of a run or an ensemble: nothing is judged yet. Where nobody names a method nor a step, a run
+ * has SYSTEM_AUTO; trajectories have verlet, with an accuracy dop853. */
 request request_of_run(const motus_system *, const motus_run_def *);
-/* Settles the request of an ensemble. Where nobody names a method, it is SYSTEM_AUTO for an accuracy, else verlet. */
 request request_of_ensemble(const motus_system *, const motus_ensemble_def *);
-/* Returns whether somebody asks for a number, and it is not SAID_ASIDE. */
-static inline bool request_asks(said who) { return who == SAID_CALLER || who == SAID_MODEL; }
+/* Returns whether somebody asks for a number, and it is not MOTUS_SAID_ASIDE. */
+static inline bool request_asks(motus_said who) { return who == MOTUS_SAID_CALLER || who == MOTUS_SAID_MODEL; }
 /* Finds the row of a name, if it admits the system. Samples the velocity term first where the answer depends on it. */
 motus_status request_row(motus_system *, const char *name, chosen *, const motus_method **card, motus_error *);
 /* Finds the row of a request. MOTUS_ARGUMENT: a number is asked for that the row does not take, or is out of range. */

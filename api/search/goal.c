@@ -10,40 +10,40 @@
 #include <stdio.h>
 #include <string.h>
 
-#define ACCURACY 1e-9 /* where nobody gives one */
-
 /* Refuses contradictions. request_choose judges steps and tolerances without an accuracy. */
-static motus_status check(const motus_run_def *def, const request *q, motus_error *err)
+static motus_status check(const request *asked, motus_error *err)
 {
+    const motus_settings *const q = &asked->set;
     const bool step = request_asks(q->step_said);
-    motus_status status = search_alone(!isnan(def->accuracy) && !isnan(def->tolerance), false, err);
-    if (status == MOTUS_OK && q->automatic && step) {
+    const bool both = q->accuracy_said == MOTUS_SAID_CALLER && q->tolerance_said == MOTUS_SAID_CALLER;
+    motus_status status = search_alone(both, false, err);
+    if (status == MOTUS_OK && q->automatic && step && !asked->ensemble) {
         fail(err, MOTUS_ARGUMENT, "a step is given, and auto chooses methods that choose their steps");
         hint(err, "name a method, verlet or rk4, or give `accuracy = 1e-9` of the definition in its place");
         return MOTUS_ARGUMENT;
     }
     if (status != MOTUS_OK || isnan(q->accuracy)) return status;
     status = search_alone(false, step, err);
-    if (status != MOTUS_OK) return status;
-    if (def->switches != MOTUS_SWITCHES_STEP && def->switches != MOTUS_SWITCHES_USUAL)
-        return fail(err, MOTUS_UNAVAILABLE, "a run that locates switches cannot be given an accuracy");
-    return request_admits("an accuracy", q->accuracy, q->absolute, err);
+    return status == MOTUS_OK ? request_admits("an accuracy", q->accuracy, q->absolute, err) : status;
 }
 
-/* Settles start and end, which pilots and trials need. */
-static motus_status settle(motus_system *s, motus_run_def *def, const request *given, motus_error *err)
+static motus_status refuse_fixed(const chosen *c, motus_error *err)
 {
-    timing t;
-    request q = *given;
-    if (q.automatic)
-        q.method = PILOT_FIRST;
-    else
-        q.step = 1; /* searched for later */
-    motus_status status = request_row(s, q.method, &q.chosen, &q.card, err);
-    if (status == MOTUS_OK) status = suggest_missing(s, &q, err);
-    if (status == MOTUS_OK) status = run_timing(&q.chosen, q.step, q.until, q.start, &t, err);
-    if (status == MOTUS_OK) def->until = t.until, def->start = t.t0;
-    return status;
+    fail(err, MOTUS_ARGUMENT, "an accuracy is asked for, and the steps of %s have one size", c->name);
+    hint(err, "choose an adaptive method, dop853 or taylor: every trajectory then has a tolerance of its own");
+    return MOTUS_ARGUMENT;
+}
+
+motus_status goal_admits(motus_system *s, request *q, motus_error *err)
+{
+    const char *const asked = q->set.method;
+    motus_status status = check(q, err);
+    if (status != MOTUS_OK) return status;
+    if (q->set.automatic && !q->ensemble) q->set.method = PILOT_FIRST; /* until pilots have chosen */
+    status = request_choose(s, q, err);
+    q->set.method = asked;
+    const bool fixed = status == MOTUS_OK && !row_adaptive(&q->chosen);
+    return fixed && q->ensemble && !isnan(q->set.accuracy) ? refuse_fixed(&q->chosen, err) : status;
 }
 
 /* One method tried: with which definition, what it reaches, and how it fails. */
@@ -96,54 +96,47 @@ static void try_others(motus_system *s, const attempt *asked, const pilot *p, at
                  best->accuracy.missed ? "comes nearest to the accuracy" : "keeps to the accuracy", first);
 }
 
-static motus_status reach(motus_system *s, motus_run_def *def, const request *q, run_hint *hint, struct goal *g,
+/* Names the method of a definition, and finds what reaches its accuracy, by pilots and trials where they are due. */
+static motus_status reach(motus_system *s, motus_run_def *def, request *q, run_hint *hint, struct goal *g,
                           motus_error *err)
 {
+    const motus_settings *const set = &q->set;
     pilot p = {.count = 0};
-    motus_status status = settle(s, def, q, err);
-    if (status == MOTUS_OK && q->automatic) {
+    timing t;
+    /* where steps have one size, their size is searched for later */
+    motus_status status = run_timing(&q->chosen, 1, set->until, set->from, &t, err);
+    if (status != MOTUS_OK) return status;
+    def->method = set->automatic ? NULL : set->method;
+    def->until = t.until, def->start = t.t0;
+    def->absolute = set->absolute;
+    def->accuracy = NAN;
+    if (isnan(set->accuracy)) def->tolerance = set->tolerance;
+    if (set->automatic) {
         motus_run_def first = *def;
-        if (isnan(first.tolerance)) first.tolerance = q->absolute ? q->accuracy / 10 : fmax(1e-14, q->accuracy / 10);
+        if (isnan(first.tolerance)) first.tolerance = fmax(set->absolute ? 0 : 1e-14, set->accuracy / 10);
         status = pilot_choose(s, &first, &p, err);
         if (status != MOTUS_OK) return status;
         memcpy(g->choice, p.why, sizeof g->choice);
         def->method = p.names[0];
         hint->steps = p.steps;
     }
-    if (status != MOTUS_OK || isnan(q->accuracy)) return status;
-    g->accuracy.wanted = q->accuracy;
-    g->accuracy.absolute = q->absolute;
-    const attempt asked = {.def = *def, .hint = *hint, .accuracy = g->accuracy};
-    attempt best = asked;
-    attempt_find(&best, s, NULL);
-    if (q->automatic) try_others(s, &asked, &p, &best, g->choice);
-    g->accuracy = best.accuracy;
-    *def = best.def, *hint = best.hint;
-    if (best.failure.status == MOTUS_OK)
+    if (!isnan(set->accuracy)) {
+        g->accuracy.wanted = set->accuracy;
+        g->accuracy.absolute = set->absolute;
+        const attempt asked = {.def = *def, .hint = *hint, .accuracy = g->accuracy};
+        attempt best = asked;
+        attempt_find(&best, s, NULL);
+        if (set->automatic) try_others(s, &asked, &p, &best, g->choice);
+        g->accuracy = best.accuracy;
+        *def = best.def, *hint = best.hint;
+        if (best.failure.status != MOTUS_OK) {
+            if (err) motus_struct_write(MOTUS_DEF_ERROR, &best.failure, err);
+            return best.failure.status;
+        }
         hint->steps = (double)run_steps(g->accuracy.best);
-    else if (err)
-        motus_struct_write(MOTUS_DEF_ERROR, &best.failure, err);
-    return best.failure.status;
-}
-
-/* Names the method of a definition, and finds what reaches its accuracy, by pilots and trials where they are due.
- * *goal: the run's; NULL: it has none. */
-static motus_status reach_goal(motus_system *s, motus_run_def *def, run_hint *hint, struct goal **goal,
-                               motus_error *err)
-{
-    request q = request_of_run(s, def);
-    if (q.automatic && isnan(q.accuracy) && isnan(q.tolerance)) q.accuracy = ACCURACY;
-    motus_status status = check(def, &q, err);
-    *goal = NULL;
-    if (status != MOTUS_OK || (!q.automatic && isnan(q.accuracy))) return status;
-    struct goal *g = *goal = take(&s->allocator, 1, sizeof *g);
-    if (!g) return fail(err, MOTUS_MEMORY, "no memory for the run");
-    *g = (struct goal){.accuracy = {.wanted = NAN, .reached = NAN, .rounding = NAN}};
-    def->method = q.automatic ? NULL : q.method;
-    def->absolute = q.absolute;
-    def->accuracy = NAN;
-    if (isnan(q.accuracy)) def->tolerance = q.tolerance;
-    return reach(s, def, &q, hint, g, err);
+    }
+    *q = request_of_run(s, def); /* of what was found */
+    return request_choose(s, q, err);
 }
 
 bool goal_arrive(motus_run *r, int64_t n)
@@ -209,10 +202,18 @@ motus_status goal_run(motus_system *s, motus_run_def *def, motus_run **out, motu
 {
     run_hint hint = {.accompany = bars_prepare};
     struct goal *goal = NULL;
-    motus_status status = reach_goal(s, def, &hint, &goal, err);
     request q = request_of_run(s, def);
-    if (status == MOTUS_OK) status = request_choose(s, &q, err);
+    motus_status status = goal_admits(s, &q, err);
     if (status == MOTUS_OK) status = suggest_missing(s, &q, err);
+    const bool accurate = !isnan(q.set.accuracy);
+    if (status == MOTUS_OK && accurate && def->switches != MOTUS_SWITCHES_STEP && def->switches != MOTUS_SWITCHES_USUAL)
+        status = fail(err, MOTUS_UNAVAILABLE, "a run that locates switches cannot be given an accuracy");
+    if (status == MOTUS_OK && (accurate || q.set.automatic)) {
+        goal = take(&s->allocator, 1, sizeof *goal);
+        if (!goal) return fail(err, MOTUS_MEMORY, "no memory for the run");
+        *goal = (struct goal){.accuracy = {.wanted = NAN, .reached = NAN, .rounding = NAN}};
+        status = reach(s, def, &q, &hint, goal, err);
+    }
     if (status == MOTUS_OK) status = run_of(s, &q, def, &hint, out, err);
     if (*out)
         (*out)->goal = goal;

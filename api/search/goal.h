@@ -9,6 +9,9 @@ struct goal {
     char choice[256]; /* which method "auto" chose, and why; "" */
 };
 
+/* Judges a request, and finds its row: that of the first pilot, where pilots are to choose the method. Call
+ * suggest_missing then. */
+motus_status goal_admits(motus_system *, request *, motus_error *);
 /* Makes the run of a definition, and settles what nobody gives: pilots choose its method, trials find what reaches its
  * accuracy, and its step and end are suggested. *out: NULL after an error. */
 motus_status goal_run(motus_system *, motus_run_def *, motus_run **out, motus_error *);

@@ -395,22 +395,33 @@ motus_status motus_suggest(motus_system *s, motus_settings *set, motus_error *er
     if (status != MOTUS_OK) return status;
     if (isinf(ours.step) || ours.step <= 0 || isinf(ours.until) || isinf(ours.from))
         return fail(err, MOTUS_ARGUMENT, "the step is a positive number, and start and end are finite");
+    const bool no_step = isnan(ours.step), no_end = isnan(ours.until);
     const modes m = modes_enter();
     status = suggest(s, &ours, err);
     modes_leave(m);
-    if (status == MOTUS_OK) motus_struct_write(MOTUS_DEF_SETTINGS, &ours, set);
-    return status;
+    if (status != MOTUS_OK) return status;
+    if (no_step) ours.step_said = MOTUS_SAID_SUGGESTED;
+    if (no_end) ours.until_said = MOTUS_SAID_SUGGESTED;
+    motus_struct_write(MOTUS_DEF_SETTINGS, &ours, set);
+    return MOTUS_OK;
+}
+
+bool suggest_lacks_step(const motus_system *s, const request *q)
+{
+    return s->model && !row_adaptive(&q->chosen) && isnan(q->set.step) && isnan(q->set.accuracy);
 }
 
 motus_status suggest_missing(motus_system *s, request *q, motus_error *err)
 {
-    const bool no_step = !row_adaptive(&q->chosen) && isnan(q->step), no_end = isnan(q->until);
-    const bool sound = !isinf(q->step) && !(q->step <= 0) && !isinf(q->until) && !isinf(q->start);
+    motus_settings *const given = &q->set, set = q->set;
+    const bool no_step = suggest_lacks_step(s, q), no_end = isnan(set.until) && !q->ends;
+    const bool sound = !isinf(set.step) && !(set.step <= 0) && !isinf(set.until) && !isinf(set.from);
     if (!s->model || !sound || (!no_step && !no_end)) return MOTUS_OK; /* run_timing refuses the rest */
-    motus_settings set = motus_default_settings();
-    set.method = q->method, set.step = q->step, set.until = q->until, set.from = q->start;
     const motus_status status = motus_suggest(s, &set, err);
-    if (no_step && status == MOTUS_OK) q->step = set.step, q->step_said = SAID_SUGGESTED;
-    if (no_end && status == MOTUS_OK) q->until = set.until, q->until_said = SAID_SUGGESTED;
-    return status;
+    if (status != MOTUS_OK) return status;
+    if (no_step) given->step = set.step, given->step_said = MOTUS_SAID_SUGGESTED;
+    if (no_end) given->until = set.until, given->until_said = MOTUS_SAID_SUGGESTED;
+    if (!(given->rate > 0)) given->rate = set.rate; /* else it is that of a step which is known already */
+    if (set.period > 0) given->period = set.period;
+    return MOTUS_OK;
 }

@@ -4,6 +4,8 @@
 
 #include "api/request/request.h"
 
+/* Returns whether the row of a request needs a step that nobody gives. */
+bool suggest_lacks_step(const motus_system *, const request *);
 /* Fills in the end that a request lacks, and the step if its row needs one; of a callback neither. */
 motus_status suggest_missing(motus_system *, request *, motus_error *);
 

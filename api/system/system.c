@@ -246,22 +246,23 @@ motus_status motus_variable_at(const motus_system *s, size_t k, motus_variable *
     return MOTUS_OK;
 }
 
-motus_status motus_settings_of(const motus_system *s, motus_settings *out)
+motus_settings system_settings(const motus_system *s)
 {
-    if (!s || !out || motus_struct_check(MOTUS_DEF_SETTINGS, out, NULL) != MOTUS_OK) return MOTUS_ARGUMENT;
-    motus_settings ours = motus_default_settings();
-    ours.from = s->start;
+    motus_settings set = motus_default_settings();
+    set.from = s->start, set.from_said = MOTUS_SAID_MODEL;
+    if (!s->model) return set;
     const model *m = s->model;
-    if (m)
-        ours = (motus_settings){.method = m->method,
-                                .step = m->step,
-                                .from = m->start,
-                                .until = m->until,
-                                .tolerance = m->tolerance,
-                                .accuracy = m->accuracy,
-                                .absolute = m->absolute,
-                                .every_time = m->every_time,
-                                .every_steps = m->every_steps};
-    motus_struct_write(MOTUS_DEF_SETTINGS, &ours, out);
-    return MOTUS_OK;
+    set.method = m->method;
+    set.step = m->step;
+    set.until = m->until;
+    set.tolerance = m->tolerance;
+    set.accuracy = m->accuracy;
+    set.absolute = m->absolute;
+    set.every_time = m->every_time;
+    set.every_steps = m->every_steps;
+#define SAYS(number) (isnan(number) ? MOTUS_SAID_NOBODY : MOTUS_SAID_MODEL)
+    set.method_said = m->method ? MOTUS_SAID_MODEL : MOTUS_SAID_NOBODY;
+    set.step_said = SAYS(m->step), set.until_said = SAYS(m->until);
+    set.tolerance_said = SAYS(m->tolerance), set.accuracy_said = SAYS(m->accuracy);
+    return set;
 }

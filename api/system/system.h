@@ -90,6 +90,8 @@ motus_status system_again(const motus_system *, bool nudged, const uint8_t *vari
 /* Returns whether a name, in any letter case, asks the library to choose the method. */
 #define SYSTEM_AUTO "auto"
 bool system_auto(const char *method);
+/* Returns what the model says, where a callback says its start alone; `automatic` is not known yet. */
+motus_settings system_settings(const motus_system *);
 /* Copy a state from the inside order to the outside one, and back. */
 void system_outside(const motus_system *, const double *x, const double *v, double *out_x, double *out_v);
 void system_inside(const motus_system *, const double *in_x, const double *in_v, double *x, double *v);

@@ -9,7 +9,6 @@
 #include "cli/words/complain.h"
 #include "cli/words/text.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -96,7 +95,7 @@ static void name_option(const options *o, const char *section, motus_error *err)
 
 motus_status load_model(load *m, const options *o, motus_error *err)
 {
-    *m = (load){.step = NAN, .until = NAN};
+    *m = (load){.set = motus_default_settings()};
     if (!o->operand) return no_model(o, err);
     name_of(o->operand, m->title, sizeof m->title);
     size_t length;
@@ -155,10 +154,3 @@ void load_free(load *m)
 size_t load_quantity_column(const load *m) { return 1 + m->positions + m->velocities; }
 
 size_t load_invariant_column(const load *m) { return load_quantity_column(m) + m->quantities; }
-
-double load_until(const load *m)
-{
-    motus_settings settings = motus_default_settings();
-    motus_settings_of(m->system, &settings);
-    return isnan(m->until) ? settings.until : m->until;
-}

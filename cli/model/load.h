@@ -26,8 +26,7 @@ typedef struct load {
     motus_system *system;
     size_t positions, velocities;  /* columns: t, then these, then quantities, invariants, exact */
     size_t quantities, invariants; /* their numbers, not their names */
-    double step, until;            /* by settle.c: of the options, or suggested; NaN: the model's */
-    int suggested;                 /* which of them: SETTLE_STEP | SETTLE_UNTIL */
+    motus_settings set;            /* by settle.c: what the command asks of the model, and who says it */
     defined defined;               /* quantities that --record adds */
     char title[MOTUS_NAME_MAX];    /* file name without folder and ending, safe to show */
 } load;
@@ -44,8 +43,6 @@ typedef const char *load_naming(const motus_system *, size_t k, size_t *numbers)
 /* First column of the quantities and of the invariants. */
 size_t load_quantity_column(const load *);
 size_t load_invariant_column(const load *);
-/* The end, once it is settled. NaN: none. */
-double load_until(const load *);
 
 /* components.c: whether an item of --set names a component, "r.x(0)=5", "r'.y(0)=1", "r[3].x(0)=2", "g.x=9.81". The
  * text of a model gives a vector as a whole, so the library's `set` does not take one. */

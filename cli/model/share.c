@@ -9,6 +9,7 @@
 #include "base/utf8.h"
 #include "cli/files/file.h"
 #include "cli/model/load.h"
+#include "cli/model/settle.h"
 #include "cli/words/complain.h"
 #include "cli/words/text.h"
 #include "cli/words/words.h"
@@ -193,19 +194,12 @@ static motus_status check_methods(const load *m, const options *o, const char **
     return status;
 }
 
-/* Checks the request by creating the run that it describes. */
-static motus_status check_run(const load *m, const options *o, motus_error *err)
+static motus_status check_run(load *m, const options *o, motus_error *err)
 {
     motus_run_def def = motus_default_run();
-    motus_run *run = NULL;
-    def.method = o->method;
-    def.step = o->step;
-    def.until = o->until;
-    def.machine = "interpreter"; /* compiles nothing */
+    SETTLE_ASK(&def, o);
     motus_status status = o->verb == VERB_COMPARE ? check_methods(m, o, &def.method, err) : MOTUS_OK;
-    if (!status) status = motus_run_create(m->system, &def, &run, err);
-    motus_run_destroy(run);
-    return status;
+    return status ? status : motus_run_settings(m->system, &def, &m->set, err);
 }
 
 motus_status share_verb(const options *o, motus_error *err)

@@ -154,7 +154,7 @@ static motus_status begin(job *j, motus_error *err)
     if (status) return status;
     if (isnan(motus_run_now(j->run).accuracy)) j->began = NAN;
     j->start = motus_run_time(j->run);
-    j->until = load_until(&j->model);
+    j->until = j->model.set.until;
     status = deviation_begin(&j->deviation, &j->model, j->run, err);
     if (!status && o->restart) status = restart(j, err);
     const bool errors = j->def.error != MOTUS_BARS_NONE;

@@ -99,7 +99,7 @@ motus_status run_again_rows(const options *o, motus_archive *file, uint64_t rows
         walk_observer w = run_make_rows(&quiet, &model, run);
         w.columns = plan.columns, w.count = plan.count;
         w.take = take, w.jump = jump, w.context = &c;
-        status = walk(run, motus_run_time(run), load_until(&model), &w, 1, NULL, err);
+        status = walk(run, motus_run_time(run), model.set.until, &w, 1, NULL, err);
         if (status == ENOUGH && !stop_requested()) status = MOTUS_OK;
         if (!status && c.same && c.rows < rows)
             status = fail(err, MOTUS_STATE, "the run of the archive's command has only %" PRIu64 " rows", c.rows);

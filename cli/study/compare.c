@@ -124,8 +124,7 @@ motus_status compare_verb(const options *o, motus_error *err)
     studies s;
     motus_study_def def;
     motus_comparison *c = NULL;
-    motus_status status =
-        studies_begin(&s, "compare", SETTLE_UNTIL | (o->evaluations > 0 ? 0 : SETTLE_STEP), o, &def, err);
+    motus_status status = studies_begin(&s, "compare", o->evaluations == 0, o, &def, err);
     if (!status) status = motus_compare(s.model.system, &def, &c, err);
     if (status == MOTUS_UNAVAILABLE) hint(err, "with --accuracies 1e-3:1e-12 adaptive methods are compared too");
     stop_progress_end(&s.progress);

@@ -207,7 +207,7 @@ motus_status converge_verb(const options *o, motus_error *err)
     studies s;
     motus_study_def def;
     motus_convergence *c = NULL;
-    motus_status status = studies_begin(&s, "converge", SETTLE_UNTIL, o, &def, err);
+    motus_status status = studies_begin(&s, "converge", false, o, &def, err);
     if (!status) def.until = o->until; /* else the library takes the model's end or suggests one, and may cut it */
     if (!status) status = motus_converge(s.model.system, &def, &c, err);
     stop_progress_end(&s.progress);

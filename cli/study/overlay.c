@@ -86,7 +86,7 @@ static motus_status run_method(overlay *v, const motus_compare_row *row, stop_pr
     def.method = row->method;
     def.machine = "auto";
     def.step = row->step;
-    def.until = v->model->until;
+    def.until = v->model->set.until;
     def.progress = stop_progress_hook;
     def.context = progress;
     motus_run *run = NULL;
@@ -94,7 +94,7 @@ static motus_status run_method(overlay *v, const motus_compare_row *row, stop_pr
     if (status) return status;
     bool first = v->record_count == 0;
     record *r = &v->records[v->record_count++];
-    *r = record_for(motus_run_now(run).steps_total, v->model->until - motus_run_time(run), SAMPLES);
+    *r = record_for(motus_run_now(run).steps_total, v->model->set.until - motus_run_time(run), SAMPLES);
     bool room = true;
     for (size_t i = 0; room && i < v->slot_count; i++) {
         const slot *s = &v->slots[i];
@@ -102,7 +102,7 @@ static motus_status run_method(overlay *v, const motus_compare_row *row, stop_pr
         if (room && first && s->exact[1]) room = add_curve(v, r, s, s->exact, "exact", PLOT_EXACT);
     }
     walk_observer w = record_observer(r);
-    status = room ? walk(run, motus_run_time(run), load_until(v->model), &w, 1, NULL, err) : complain_memory(err);
+    status = room ? walk(run, motus_run_time(run), v->model->set.until, &w, 1, NULL, err) : complain_memory(err);
     for (size_t i = 0; i < v->slot_count; i++) {
         plot_panel *p = &v->plot.panels[v->slots[i].panel];
         for (size_t k = 0; k < p->curve_count; k++)

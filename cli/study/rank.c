@@ -179,7 +179,7 @@ motus_status rank_verb(const options *o, motus_error *err)
     studies s;
     motus_study_def def;
     motus_ranking *r = NULL;
-    motus_status status = studies_begin(&s, "compare", SETTLE_UNTIL, o, &def, err);
+    motus_status status = studies_begin(&s, "compare", false, o, &def, err);
     if (!status) {
         def.step = NAN;
         def.coarsest = o->accuracies.coarsest;

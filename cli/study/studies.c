@@ -11,7 +11,7 @@
 #include <math.h>
 #include <string.h>
 
-motus_status studies_begin(studies *s, const char *what, int needed, const options *o, motus_study_def *def,
+motus_status studies_begin(studies *s, const char *what, bool steps, const options *o, motus_study_def *def,
                            motus_error *err)
 {
     *s = (studies){.options = o};
@@ -19,15 +19,19 @@ motus_status studies_begin(studies *s, const char *what, int needed, const optio
     if (!status && o->plot && o->operand && file_same(o->plot, o->operand))
         status = fail(err, MOTUS_ARGUMENT, "%s is read and would be overwritten", o->operand);
     if (!status) status = load_model(&s->model, o, err);
-    /* explicit-euler admits all steps and forces; the model's own method need not be among those that are studied */
-    if (!status) status = settle_timing(&s->model, o, needed, "explicit-euler", NULL, err);
+    /* By a method that takes all forces: the model's own need not be among those that are studied. */
+    motus_run_def run = motus_default_run();
+    run.method = steps ? "explicit-euler" : "dop853";
+    if (steps) run.step = o->step;
+    run.until = o->until;
+    if (!status) status = settle_run(&s->model, o, &run, err);
     if (status) return status;
     *def = motus_default_study();
     def->machine = "auto";
     def->methods = o->methods.count ? o->methods.items : NULL;
     def->method_count = o->methods.count;
-    def->step = s->model.step;
-    def->until = s->model.until;
+    def->step = steps ? run.step : o->step;
+    def->until = run.until;
     def->evaluations = o->evaluations;
     def->progress = stop_progress_hook;
     def->context = &s->progress;

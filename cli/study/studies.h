@@ -14,9 +14,9 @@ typedef struct studies {
     stop_progress progress;
 } studies;
 
-/* Loads the model and fills the definition. `needed` is that of settle_timing(). Progress is shown under the name
- * `what` until stop_progress_end(). */
-motus_status studies_begin(studies *, const char *what, int needed, const options *, motus_study_def *, motus_error *);
+/* Loads the model and fills the definition; steps: the study needs a step. Progress is shown under the name `what`
+ * until stop_progress_end(). */
+motus_status studies_begin(studies *, const char *what, bool steps, const options *, motus_study_def *, motus_error *);
 
 /* Prints the first line of the tables: the model and the reference. */
 void studies_title(const studies *, const char *reference, double error);

@@ -35,38 +35,25 @@ static motus_status read_every(sweep *s, motus_error *err)
     return MOTUS_OK;
 }
 
-static motus_status create(sweep *s, stop_progress *progress, motus_error *err)
+/* def: what the sweep asks of its trajectories, and what varies. */
+static motus_status create(sweep *s, motus_ensemble_def *def, stop_progress *progress, motus_error *err)
 {
     const options *o = s->options;
-    motus_ensemble_def def = motus_default_ensemble();
-    def.vary = s->grid.names;
-    def.vary_count = s->grid.count;
-    def.records = s->records.items;
-    def.record_count = sweep_kept(s);
-    def.method = o->method;
-    def.tolerance = o->tolerance;
-    def.accuracy = o->accuracy;
-    def.absolute = s->options->absolute;
-    def.shortest_step = s->options->shortest_step;
-    def.longest_step = s->options->longest_step;
-    def.most_steps = s->options->most_steps;
-    def.step = s->model.step; /* else the model's, which a number that varies may not decide */
-    def.until = s->model.until;
-    def.every = s->every;
-    def.machine = o->machine ? o->machine : "auto";
-    def.threads = o->threads || !o->team ? (int)o->threads : o->team->threads;
-    def.lanes = (int)o->lanes;
-    def.fast = o->fast;
-    def.error = s->errors ? options_bars(o) : MOTUS_BARS_NONE;
-    def.expected = s->grid.total / s->shard.count + 1; /* the blocks of a shard are not known yet */
-    def.switches = options_switches(o);
-    def.events = o->events || o->plot;
-    def.event_columns = s->event_columns;
-    def.event_column_count = s->event_columns_count + s->event_columns_more;
-    def.causes = 1;
-    def.progress = stop_progress_hook;
-    def.context = progress;
-    return motus_ensemble_create(s->model.system, &def, &s->ensemble, err);
+    def->records = s->records.items;
+    def->record_count = sweep_kept(s);
+    def->every = s->every;
+    def->threads = o->threads || !o->team ? (int)o->threads : o->team->threads;
+    def->lanes = (int)o->lanes;
+    def->fast = o->fast;
+    def->error = s->errors ? options_bars(o) : MOTUS_BARS_NONE;
+    def->expected = s->grid.total / s->shard.count + 1; /* the blocks of a shard are not known yet */
+    def->events = o->events || o->plot;
+    def->event_columns = s->event_columns;
+    def->event_column_count = s->event_columns_count + s->event_columns_more;
+    def->causes = 1;
+    def->progress = stop_progress_hook;
+    def->context = progress;
+    return motus_ensemble_create(s->model.system, def, &s->ensemble, err);
 }
 
 /* All pieces of a sweep decide by the same trajectories. */
@@ -135,10 +122,10 @@ static motus_status check_team(const options *o, motus_error *err)
 }
 
 /* The ensemble and the head of the file. */
-static motus_status make(sweep *s, stop_progress *progress, motus_error *err)
+static motus_status make(sweep *s, motus_ensemble_def *def, stop_progress *progress, motus_error *err)
 {
     const options *o = s->options;
-    motus_status status = create(s, progress, err);
+    motus_status status = create(s, def, progress, err);
     if (!status) note_machine(s);
     const motus_ensemble_statistics now = motus_ensemble_now(s->ensemble);
     if (!status && !o->quiet && now.not_located[0]) complain_note("%s", now.not_located);
@@ -174,25 +161,22 @@ motus_status sweep_begin(sweep *s, sweep_section *section, stop_progress *progre
     if (!status) status = sweep_section_plan(section, s, err);
     if (status) return status;
     const bool own_ends = grid_find(&s->grid, "until") < s->grid.count;
-    s->accuracy = settle_accuracy(&s->model, o);
-    const int step = isnan(s->accuracy) ? SETTLE_STEP : 0; /* with an accuracy steps adapt */
-    status = settle_timing(&s->model, o, step | (own_ends ? 0 : SETTLE_UNTIL), o->method, &s->grid, err);
-    if (status) return status;
-    motus_settings settings = motus_default_settings();
-    motus_settings_of(s->model.system, &settings);
-    const motus_method *card = NULL;
-    const char *method = o->method ? o->method : settings.method;
-    const bool adaptive =
-        !isnan(s->accuracy) || (method && motus_method_find(method, &card, NULL) == MOTUS_OK && card->adaptive);
-    s->step = adaptive ? NAN : isnan(s->model.step) ? settings.step : s->model.step;
-    s->until = own_ends ? NAN : load_until(&s->model);
-    if (isnan(s->until) && !isnan(o->until))
+    if (own_ends && !isnan(o->until))
         return fail(err, MOTUS_ARGUMENT, "--until is one end for all, and --vary until one for each: leave one out");
+    motus_ensemble_def def = motus_default_ensemble();
+    SETTLE_ASK(&def, o);
+    def.vary = s->grid.names;
+    def.vary_count = s->grid.count;
+    status = settle_sweep(&s->model, o, &s->grid, &def, err);
+    if (status) return status;
+    s->accuracy = s->model.set.accuracy;
+    s->step = s->model.set.step;
+    s->until = own_ends ? NAN : s->model.set.until;
     s->errors = o->errors;
     s->columns = 3 + s->grid.count + s->records.count + s->errors + s->records.ended;
     for (size_t r = 0; s->errors && r < s->records.count; r++) s->columns += sweep_record_errs(&s->records.items[r]);
     status = read_every(s, err);
-    return status ? status : make(s, progress, err);
+    return status ? status : make(s, &def, progress, err);
 }
 
 void sweep_free(sweep *s)

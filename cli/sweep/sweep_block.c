@@ -58,7 +58,7 @@ static motus_status make_trial(const sweep *s, int64_t most, motus_ensemble **ou
     def.shortest_step = s->options->shortest_step;
     def.longest_step = s->options->longest_step;
     def.most_steps = most;
-    def.until = s->model.until;
+    def.until = s->until;
     def.machine = "interpreter";
     def.threads = 1;
     def.error = MOTUS_BARS_NONE;
@@ -83,18 +83,11 @@ static motus_status count_steps(const sweep *s, trials *t, double start, int64_t
     return status;
 }
 
-static double start_of(const sweep *s)
-{
-    motus_settings settings = motus_default_settings();
-    motus_settings_of(s->model.system, &settings);
-    return isnan(settings.from) ? 0 : settings.from;
-}
-
 /* Estimates the operations of a trajectory. */
 static motus_status work_of(const sweep *s, double *work, motus_error *err)
 {
     trials t;
-    const double step = motus_ensemble_step_work(s->ensemble), start = start_of(s);
+    const double step = motus_ensemble_step_work(s->ensemble), start = s->model.set.from;
     const int64_t most = (int64_t)fmin(STEPS_MOST, fmax(STEPS_LEAST, TRIAL_WORK / step));
     double steps = 0;
     motus_status status = choose_trials(&t, s, err);

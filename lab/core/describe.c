@@ -5,7 +5,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 static void describe_columns(json *j, const motus_system *s)
 {
@@ -75,14 +74,11 @@ static void describe_parameters(json *j, const motus_system *s)
 static const char *method_of(const motus_settings *settings)
 {
     const motus_method *found;
-    if (!settings->method) return "";
+    if (settings->method_said != MOTUS_SAID_MODEL) return "";
     return strchr(settings->method, '(') || motus_method_find(settings->method, &found, NULL) != MOTUS_OK
                ? settings->method
                : found->name;
 }
-
-/* Whether the model leaves it to the library which method takes it, and how long its steps are. */
-static bool automatic(const motus_settings *s) { return s->method ? !strcasecmp(s->method, "auto") : isnan(s->step); }
 
 static void describe_statements(json *j, motus_system *s)
 {
@@ -135,7 +131,7 @@ static void rest_of(const motus_initial *i, const motus_variable *v, char *line,
 }
 
 /* Lines that would make the text say what was supposed. */
-static void describe_suggestions(json *j, const motus_system *s, const motus_settings *own, const motus_settings *found)
+static void describe_suggestions(json *j, const motus_system *s, const motus_settings *set)
 {
     char line[256];
     motus_initial i = motus_default_initial();
@@ -146,13 +142,13 @@ static void describe_suggestions(json *j, const motus_system *s, const motus_set
         rest_of(&i, &v, line, sizeof line);
         if (line[0]) suggest(j, line, "at rest, not given");
     }
-    if (isnan(own->step) && !isnan(found->step)) {
-        snprintf(line, sizeof line, "step  %.15g", found->step);
-        suggest(j, line, found->step_why);
+    if (set->step_said == MOTUS_SAID_SUGGESTED) {
+        snprintf(line, sizeof line, "step  %.15g", set->step);
+        suggest(j, line, set->step_why);
     }
-    if (isnan(own->until) && !isnan(found->until)) {
-        snprintf(line, sizeof line, "until %.15g", found->until);
-        suggest(j, line, found->until_why);
+    if (set->until_said == MOTUS_SAID_SUGGESTED) {
+        snprintf(line, sizeof line, "until %.15g", set->until);
+        suggest(j, line, set->until_why);
     }
     json_close(j, ']');
 }
@@ -161,11 +157,10 @@ static void describe_suggestions(json *j, const motus_system *s, const motus_set
 LAB_CALL(lab_describe) const char *lab_describe(lab *l)
 {
     motus_system *s = l->system;
-    motus_settings settings = motus_default_settings();
-    motus_settings_of(s, &settings);
-    motus_settings found = settings;
-    const bool suggested = isnan(settings.step) || isnan(settings.until);
-    if (suggested) motus_suggest(s, &found, NULL); /* after a failure they stay unknown */
+    motus_settings set = motus_default_settings();
+    motus_settings_of(s, &set);
+    const bool suggested = isnan(set.step) || isnan(set.until);
+    if (suggested) motus_suggest(s, &set, NULL); /* after a failure they stay unknown */
     json j = lab_answer(l);
     tell_variables(&j, s);
     tell_analysis(&j, s);
@@ -174,17 +169,17 @@ LAB_CALL(lab_describe) const char *lab_describe(lab *l)
     describe_columns(&j, s);
     describe_parameters(&j, s);
     json_open(&j, "settings", '{');
-    json_string(&j, "method", method_of(&settings));
-    json_number(&j, "step", found.step);
-    json_number(&j, "tolerance", found.tolerance);
-    json_number(&j, "accuracy", settings.accuracy);
-    json_bool(&j, "absolute", settings.absolute);
-    json_bool(&j, "automatic", automatic(&settings));
-    json_number(&j, "until", found.until);
-    json_number(&j, "start", settings.from);
+    json_string(&j, "method", method_of(&set));
+    json_number(&j, "step", set.step);
+    json_number(&j, "tolerance", set.tolerance);
+    json_number(&j, "accuracy", set.accuracy);
+    json_bool(&j, "absolute", set.absolute);
+    json_bool(&j, "automatic", set.automatic);
+    json_number(&j, "until", set.until);
+    json_number(&j, "start", set.from);
     json_bool(&j, "suggested", suggested);
     json_close(&j, '}');
-    describe_suggestions(&j, s, &settings, &found);
+    describe_suggestions(&j, s, &set);
     json_bool(&j, "has_exact", motus_has_exact(s));
     return lab_answered(l, &j);
 }

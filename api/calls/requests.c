@@ -1,10 +1,10 @@
-/* The step of many trajectories: motus_suggest_varied and motus_step_growth.
+/* The settings of models, runs and ensembles, each with who says it; and the step of many trajectories.
  *
  * Invariant: the caller's system is not changed; a clone of it takes the numbers of one trajectory after the other.
  */
-#include "api/search/suggest.h"
-
 #include "api/ensemble/ensemble.h"
+#include "api/search/goal.h"
+#include "api/search/suggest.h"
 
 #include <math.h>
 #include <string.h>
@@ -75,35 +75,75 @@ static motus_status shortest(varied *y, size_t trajectories, const double *const
             return status;
         }
         if (status == MOTUS_OK && !(one.step >= set->step))
-            set->step = one.step, set->rate = one.rate, set->period = one.period;
+            set->step = one.step, set->step_said = one.step_said, set->rate = one.rate, set->period = one.period;
     }
     return MOTUS_OK;
 }
 
-motus_status motus_suggest_varied(motus_system *s, size_t count, const char *const *names, size_t trajectories,
-                                  const double *const *values, motus_settings *set, motus_error *err)
+/* Tells what a request asks for; what a row does not take is none. */
+static motus_status tell(const request *q, motus_status status, motus_settings *out)
 {
-    if (!motus_error_sound(err)) return MOTUS_ARGUMENT;
-    if (!s || !set || (count && !names) || (trajectories && count && !values))
-        return fail(err, MOTUS_ARGUMENT, "motus_suggest_varied needs a system, names, values and settings to fill in");
-    motus_settings ours;
-    motus_status status = motus_struct_read(MOTUS_DEF_SETTINGS, set, &ours, err);
-    if (status == MOTUS_OK && isnan(ours.step)) {
-        varied y = {0};
-        motus_settings found = ours;
-        modes m = modes_enter();
-        status = begin(&y, s, names, count, err);
-        modes_leave(m);
-        if (status == MOTUS_OK) status = shortest(&y, trajectories, values, &found, err);
-        end(&y, &s->allocator);
-        if (status == MOTUS_OK) ours.step = found.step, ours.rate = found.rate, ours.period = found.period;
+    motus_settings set = q->set;
+    const bool accurate = !isnan(set.accuracy), adaptive = accurate || (q->card && row_adaptive(&q->chosen));
+    if (adaptive) set.step = NAN;
+    if (!accurate && adaptive && isnan(set.tolerance)) {
+        set.tolerance = set.absolute ? q->chosen.absolute : q->chosen.relative;
+        set.tolerance_said = MOTUS_SAID_DEFAULT;
     }
-    const double rate = ours.rate, period = ours.period;
-    if (status == MOTUS_OK) status = motus_suggest(s, &ours, err);
-    if (rate > 0) ours.rate = rate;
-    if (rate > 0 && ours.period == 0) ours.period = period;
-    if (status == MOTUS_OK) motus_struct_write(MOTUS_DEF_SETTINGS, &ours, set);
+    motus_struct_write(MOTUS_DEF_SETTINGS, &set, out);
     return status;
+}
+
+motus_status motus_settings_of(const motus_system *s, motus_settings *out)
+{
+    if (!s || !out || motus_struct_check(MOTUS_DEF_SETTINGS, out, NULL) != MOTUS_OK) return MOTUS_ARGUMENT;
+    const motus_run_def nothing = motus_default_run();
+    motus_settings set = system_settings(s);
+    set.automatic = request_of_run(s, &nothing).set.automatic;
+    motus_struct_write(MOTUS_DEF_SETTINGS, &set, out);
+    return MOTUS_OK;
+}
+
+motus_status motus_run_settings(motus_system *s, const motus_run_def *given, motus_settings *out, motus_error *err)
+{
+    motus_run_def def;
+    if (!motus_error_sound(err)) return MOTUS_ARGUMENT;
+    if (!s || !out) return fail(err, MOTUS_ARGUMENT, "motus_run_settings needs a system and settings to fill in");
+    motus_status status = motus_struct_check(MOTUS_DEF_SETTINGS, out, err);
+    if (status == MOTUS_OK) status = motus_struct_read(MOTUS_DEF_RUN, given, &def, err);
+    if (status != MOTUS_OK) return status;
+    request q = request_of_run(s, &def);
+    const modes m = modes_enter();
+    status = goal_admits(s, &q, err);
+    if (status == MOTUS_OK) status = suggest_missing(s, &q, err);
+    modes_leave(m);
+    return tell(&q, status, out);
+}
+
+motus_status motus_ensemble_settings(motus_system *s, const motus_ensemble_def *given, size_t trajectories,
+                                     const double *const *values, motus_settings *out, motus_error *err)
+{
+    motus_ensemble_def def;
+    if (!motus_error_sound(err)) return MOTUS_ARGUMENT;
+    if (!s || !given || !out)
+        return fail(err, MOTUS_ARGUMENT,
+                    "motus_ensemble_settings needs a system, a definition and settings to fill in");
+    motus_status status = motus_struct_check(MOTUS_DEF_SETTINGS, out, err);
+    if (status == MOTUS_OK) status = motus_struct_read(MOTUS_DEF_ENSEMBLE, given, &def, err);
+    if (status == MOTUS_OK && trajectories && def.vary_count && !values)
+        status = fail(err, MOTUS_ARGUMENT, "motus_ensemble_settings needs the values of its trajectories");
+    if (status != MOTUS_OK) return status;
+    request q = request_of_ensemble(s, &def);
+    varied y = {0};
+    const modes m = modes_enter();
+    status = goal_admits(s, &q, err);
+    const bool shortens = status == MOTUS_OK && trajectories && suggest_lacks_step(s, &q);
+    if (shortens) status = begin(&y, s, def.vary, def.vary_count, err);
+    if (shortens && status == MOTUS_OK) status = shortest(&y, trajectories, values, &q.set, err);
+    if (shortens) end(&y, &s->allocator);
+    if (status == MOTUS_OK) status = suggest_missing(s, &q, err);
+    modes_leave(m);
+    return tell(&q, status, out);
 }
 
 motus_status motus_step_growth(motus_system *s, size_t count, const char *const *names, size_t trajectories,
