@@ -64,13 +64,13 @@ static void accelerate(const runs *r, double *x, double *v, double *a)
     if (m->verify->boundary_second) tape_run(m->verify->boundary_second, r->t, base);
 }
 
-/* Takes steps of a run from r->t. False: they lead to no finite state, and (x, v) is as before. */
-static bool step(const runs *r, double h, int64_t steps, double *x, double *v)
+/* Takes steps of a run from r->t. MOTUS_MEMORY, or another status: they lead to no finite state, and (x, v) is as
+ * before. */
+static motus_status step(const runs *r, double h, int64_t steps, double *x, double *v)
 {
-    const stepper_limit limit = {steps, NAN};
-    return stepper_start(r->stepper, r->t, h, x, v, NULL) == MOTUS_OK &&
-           stepper_advance(r->stepper, limit, NULL, NULL) == MOTUS_OK &&
-           stepper_sync(r->stepper, x, v, NULL, NULL) == MOTUS_OK;
+    motus_status status = stepper_start(r->stepper, r->t, h, x, v, NULL);
+    if (status == MOTUS_OK) status = stepper_advance(r->stepper, (stepper_limit){steps, NAN}, NULL, NULL);
+    return status == MOTUS_OK ? stepper_sync(r->stepper, x, v, NULL, NULL) : status;
 }
 
 /* Computes the accelerations at both runs' states, and the rounding of the second. */
@@ -149,7 +149,7 @@ static motus_status judge(runs *r, uint32_t i, bool at_start)
 {
     model *m = r->model;
     const model_definition *d = &m->definitions[i];
-    const bool kinks = !m->traits.smooth || verify_kinked(m, d);
+    const bool kinks = !m->traits.smooth || m->verify->kinks[i];
     if (kinks && at_start) return MOTUS_OK;
     rates(r, i);
     if (kinks && r->far) r->apart[i] *= FADE;
@@ -175,15 +175,16 @@ static motus_status judge_all(runs *r, bool at_start)
     return status;
 }
 
-/* Takes a step of size h with both runs. False: a run has no finite state. */
-static bool step_both(const runs *r, double h)
+/* Takes a step of size h of one run, and two half steps of the other. */
+static motus_status step_both(const runs *r, double h)
 {
     const model *m = r->model;
     for (int k = 0; k < 2; k++) {
         memcpy(r->old_x[k], r->x[k], m->nx * sizeof(double));
         memcpy(r->old_v[k], r->v[k], m->nv * sizeof(double));
     }
-    return step(r, h, 1, r->x[0], r->v[0]) && step(r, h / 2, 2, r->x[1], r->v[1]);
+    const motus_status status = step(r, h, 1, r->x[0], r->v[0]);
+    return status == MOTUS_OK ? step(r, h / 2, 2, r->x[1], r->v[1]) : status;
 }
 
 static void step_back(const runs *r)
@@ -296,7 +297,9 @@ static motus_status go_far(runs *r, double way, int steps)
         const bool ended = !(fabs(r->t - m->start) < fabs(way));
         if (ended && (!noted || r->t == r->jumps_to)) break;
         const double now = !ended && fabs(left) < fabs(h) ? left : h;
-        const bool taken = step_both(r, now), short_enough = taken && resolved(r, now);
+        const motus_status stepped = step_both(r, now);
+        if (stepped == MOTUS_MEMORY) return stepped;
+        const bool taken = stepped == MOTUS_OK, short_enough = taken && resolved(r, now);
         if (!short_enough && depth < DEPTH) {
             step_back(r);
             h = now / 2, depth++;
@@ -342,7 +345,8 @@ static motus_status go(runs *r)
     motus_status status = judge_all(r, true);
     note_sizes(r);
     for (int n = 0; n < steps && status == MOTUS_OK; n++) {
-        if (!step_both(r, r->h)) return MOTUS_OK;
+        status = step_both(r, r->h);
+        if (status != MOTUS_OK) return status == MOTUS_MEMORY ? status : MOTUS_OK;
         r->t = m->start + (n + 1) * r->h;
         note_sizes(r);
         status = judge_all(r, false);

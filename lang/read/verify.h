@@ -25,7 +25,7 @@ typedef struct verify {
     tape *boundary_second;                                     /* the acceleration of boundary cells */
     tape **rate, **rate_rounding;   /* for each definition; NULL: it is no invariant, or none that is checked */
     tape **value, **value_rounding; /* likewise, of invariants with kinks */
-    bool *proved;                   /* likewise */
+    bool *proved, *kinks;           /* likewise; kinks: their formulas have some */
     resolution *along;              /* of the force and of invariants; NULL: nothing to resolve */
     size_t numbers;                 /* of the largest invariant */
     struct verify_between *between;
@@ -85,7 +85,5 @@ motus_status verify_between(model *, verify_sample *, verify_fault *);
 bool verify_exact_make(model *);
 motus_status verify_exact(model *);
 bool verify_invariant_make(model *);
-/* Tells whether the formula of an invariant has kinks. */
-bool verify_kinked(const model *, const model_definition *);
 
 #endif

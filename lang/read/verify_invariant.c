@@ -54,29 +54,21 @@ static bool make_lists(model *m)
         *lists[k] = arena_room(m->arena, (m->definition_count + 1) * sizeof **lists[k]);
         if (!*lists[k]) return false;
     }
-    return (c->proved = arena_room(m->arena, m->definition_count + 1)) != NULL;
-}
-
-bool verify_kinked(const model *m, const model_definition *d)
-{
-    bool kinks = false;
-    for (size_t k = 0; k < d->output_count; k++) kinks |= graph_kink(m->graph, d->outputs[k].value) != 0;
-    return kinks;
-}
-
-/* Whether its value may jump: by a switch, or as an angle does on its cut. */
-static bool has_jumps(const model *m, const model_definition *d)
-{
-    bool any = verify_kinked(m, d);
-    for (size_t k = 0; k < d->output_count && !any; k++) any = graph_jump(m->graph, d->outputs[k].value) != 0;
-    return any;
+    c->proved = arena_room(m->arena, m->definition_count + 1);
+    c->kinks = arena_room(m->arena, m->definition_count + 1);
+    return c->proved && c->kinks;
 }
 
 static bool make_values(model *m, uint32_t i)
 {
     const model_definition *d = &m->definitions[i];
     verify *c = m->verify;
-    if (!has_jumps(m, d)) return true;
+    bool jumps = false; /* its value may jump: by a switch, or as an angle does on its cut */
+    for (size_t k = 0; k < d->output_count; k++) {
+        c->kinks[i] |= graph_kink(m->graph, d->outputs[k].value) != 0;
+        jumps |= graph_jump(m->graph, d->outputs[k].value) != 0;
+    }
+    if (!c->kinks[i] && !jumps) return true;
     c->value[i] = verify_tape(m, d->outputs, d->output_count);
     c->value_rounding[i] =
         verify_tape(m, verify_rounding(m, d->outputs, d->output_count, leaf_of_rate), d->output_count);
