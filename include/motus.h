@@ -624,15 +624,14 @@ typedef enum motus_switches {
      * between its branches, where the force is affine in it. MOTUS_SOLVE: another switch would have to be held, or two
      * of families, or more than 8, that depend on one another; or the force drives the motion away to both sides, so
      * that it is not unique. MOTUS_EVENTS: switches follow one another ever faster, and nothing holds the motion there.
-     *
-     * With steps of one size, where the force may be undefined beyond a switch, as max(0, x)^1.5 is, the interpreter
-     * takes the step in pieces that come near it. Such a run tells no errors, holds nothing at 0 (MOTUS_SOLVE), and
-     * cannot be sampled, saved or restored; an ensemble refuses it. */
+     */
     MOTUS_SWITCHES_LOCATE,
     /* As MOTUS_SWITCHES_LOCATE, with steps so short that no switch changes its side and changes back within one,
      * however narrow its window. Where the force has an operation that may change from one regime to another and back,
-     * as exp(-z²) does at its peak, steps are halved until it cannot, and until two halves give the same as one.
-     * MOTUS_SOLVE: the force changes too fast for that. Reference solutions are runs of this kind. */
+     * as exp(-z²) does at its peak, steps are halved until it cannot, and until two halves give the same as one. The
+     * interpreter runs it, by a method whose steps have one size. Such a run tells no errors, and cannot be sampled,
+     * saved or restored; an ensemble refuses it. MOTUS_SOLVE: the force changes too fast, or something would have to
+     * be held at 0. Reference solutions are runs of this kind. */
     MOTUS_SWITCHES_RESOLVE,
     /* The default: LOCATE by a method that adapts its steps, else STEP. STEP as well where there are more than 64
      * switches, which cost time in every step; where the force may be undefined beyond one, as max(0, x)^1.5 is; and
@@ -1130,9 +1129,8 @@ MOTUS_DEFAULT_FUNCTION(ensemble, ENSEMBLE, motus_ensemble_def)
 
 /* Creates an ensemble. MOTUS_NAME: a name in `vary` is neither a parameter nor an initial value. MOTUS_SHAPE: it stands
  * for several numbers. MOTUS_ARGUMENT: it decides what must be equal for all trajectories, or a member of the
- * definition is out of its range. MOTUS_UNAVAILABLE: switches are to be resolved, or, with steps of one size, to be
- * located where the force may be undefined beyond one. MOTUS_METHOD, MOTUS_LIMIT, MOTUS_TOOL: as from
- * motus_run_create. */
+ * definition is out of its range. MOTUS_UNAVAILABLE: switches are to be resolved. MOTUS_METHOD, MOTUS_LIMIT,
+ * MOTUS_TOOL: as from motus_run_create. */
 MOTUS_API motus_status motus_ensemble_create(motus_system *, const motus_ensemble_def *, motus_ensemble **,
                                              motus_error *);
 MOTUS_API void motus_ensemble_destroy(motus_ensemble *);

@@ -73,15 +73,7 @@ static motus_status locate(motus_system *s, const chosen *c, motus_switches aske
                            motus_error *err)
 {
     if (asked == MOTUS_SWITCHES_RESOLVE) return fail(err, MOTUS_UNAVAILABLE, "an ensemble does not resolve switches");
-    const motus_status found = located_for(s, c, asked, out, why, err);
-    const bool refused = asked == MOTUS_SWITCHES_LOCATE && !*out && s->model && located_kinks(s->model);
-    if (found != MOTUS_OK || !refused || row_adaptive(c)) return found;
-    fail(err, MOTUS_UNAVAILABLE,
-         "steps of one size in an ensemble do not locate switches beyond which the force may be "
-         "undefined, and those of %s do not adapt",
-         c->name);
-    hint(err, "choose an adaptive method, dop853 or taylor, or leave `switches` of the definition out");
-    return MOTUS_UNAVAILABLE;
+    return located_for(s, c, asked, out, why, err);
 }
 
 motus_status ensemble_make(motus_system *s, const motus_ensemble_def *d, const request *q, ensemble_goal *goal,

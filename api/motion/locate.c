@@ -28,21 +28,21 @@ motus_status locate_prepare(motus_run *r, motus_switches switches, motus_error *
     if (switches == MOTUS_SWITCHES_STEP || switches == MOTUS_SWITCHES_USUAL) return MOTUS_OK;
     if (switches != MOTUS_SWITCHES_LOCATE && switches != MOTUS_SWITCHES_RESOLVE)
         return fail(err, MOTUS_ARGUMENT, "there is no way to treat switches of number %d", (int)switches);
-    const bool by_events = row_adaptive(&r->chosen) || system_located(s); /* api/system/system.h */
-    if (by_events && switches == MOTUS_SWITCHES_LOCATE) return MOTUS_OK;
+    const bool fixed = s->model && !row_adaptive(&r->chosen) && !row_formula(&r->chosen);
+    r->unswitched = fixed && switches == MOTUS_SWITCHES_LOCATE && !located_kinks(s->model);
+    if (switches == MOTUS_SWITCHES_LOCATE) return MOTUS_OK; /* by events: api/system/located.c */
     if (row_adaptive(&r->chosen)) {
         fail(err, MOTUS_UNAVAILABLE, "steps of one size resolve switches, and %s adapts its steps", r->chosen.name);
         hint(err, "choose another method, or `switches = MOTUS_SWITCHES_STEP` of the definition");
         return MOTUS_UNAVAILABLE;
     }
-    r->locating = true;
-    if (!s->model || row_formula(&r->chosen)) return MOTUS_OK;
+    if (!fixed) return MOTUS_OK;
     const motus_status status = system_switches(s, err);
     if (status != MOTUS_OK) return status;
     held *h = s->switches;
-    const bool resolves = h && switches == MOTUS_SWITCHES_RESOLVE && held_resolves(h);
-    const size_t touches = h && switches == MOTUS_SWITCHES_RESOLVE ? held_touches(h) : 0;
-    if (!h || (!held_count(h) && !resolves && !touches)) return MOTUS_OK;
+    r->unswitched = !s->switches_refused && !(h && held_count(h));
+    if (!h) return MOTUS_OK;
+    const size_t touches = held_touches(h);
     const problem *p = held_problem(h);
     const size_t count = held_count(h), numbers = 7 * count + 6 * locate_numbers(p, count) + 2 * (p->nx + 2 * p->nv) +
                                                   4 * count + 4 * touches + 3 * p->nv;
@@ -74,8 +74,7 @@ motus_status locate_prepare(motus_run *r, motus_switches switches, motus_error *
     l->touch[0] = at, l->touch[1] = at + touches;
     l->touch_rate[0] = at + 2 * touches, l->touch_rate[1] = at + 3 * touches;
     l->room = at + 4 * touches;
-    l->resolves = resolves;
-    l->careful = count && switches == MOTUS_SWITCHES_RESOLVE;
+    l->resolves = held_resolves(h);
     for (size_t k = 0; k < count; k++) l->side[k] = 1, l->slack[k] = 0;
     r->locate = l;
     r->note = "switches are located by the interpreter";
@@ -93,9 +92,7 @@ void locate_destroy(motus_run *r)
 void locate_statistics(const motus_run *r, motus_run_statistics *out)
 {
     const locate *l = r->locate;
-    const motus_system *s = r->system;
-    const bool none = s->switches_known && !s->switches_refused && !(s->switches && held_count(s->switches));
-    out->switches = l ? l->located : r->locating && none ? 0 : -1;
+    out->switches = l ? l->located : r->unswitched ? 0 : -1;
     if (system_located(r->system)) out->switches = run_events_turns(r);
     out->jump = !l || isnan(l->jump) ? -1 : l->jump > 0 ? (int64_t)ceil(l->jump) : 0;
     out->jump_power = l ? l->jump : NAN;
@@ -165,8 +162,7 @@ motus_status locate_step(motus_run *r, stepper_stop *why, motus_error *err)
         status != MOTUS_OK || l->resolves || locate_least_gap(l, &l->to, NULL) < 0 || !locate_sure(l, &l->from, &l->to);
     locate_copy(&l->start, &l->from, &l->problem, l->count);
     memcpy(l->start_side, l->side, l->count * sizeof *l->side);
-    if (!tried && (status = locate_dip(r, l->to.t - l->from.t, &part, err)) != MOTUS_OK) return status;
-    if (!tried && part == 1 && (status = locate_touch(r, l->to.t - l->from.t, &part, err)) != MOTUS_OK) return status;
+    if (!tried && (status = locate_touch(r, l->to.t - l->from.t, &part, err)) != MOTUS_OK) return status;
     if (!tried && part == 1) {
         locate_swap(&l->from, &l->to);
         l->known = true;

@@ -108,7 +108,7 @@ static motus_status least_of(motus_run *r, size_t k, double h, double rate0, dou
     return status;
 }
 
-/* Finds the first touch in the step, as locate_dip finds a dip: the force is not smooth at a touch, although no
+/* Finds the first touch in the step, by its tangents at both ends: the force is not smooth at a touch, although no
  * argument changes its side. */
 motus_status locate_touch(motus_run *r, double h, double *fraction, motus_error *err)
 {

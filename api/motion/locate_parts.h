@@ -32,7 +32,6 @@ struct locate {
     interval *box;          /* nx positions, nv velocities, nv accelerations */
     interval *reach;        /* of the arguments, then of their rates */
     bool resolves;          /* pieces must resolve the force */
-    bool careful;           /* pieces must prove that no argument leaves its side and comes back */
     double next;            /* the size of the next piece to try; INFINITY: all that is left of the step */
     size_t touches;         /* how many touches pieces must end at */
     /* the arguments of touches at both ends of a step, and their rates */
@@ -48,7 +47,7 @@ struct locate {
     double rounding;
 };
 
-/* locate_place.c: states and trial steps */
+/* locate_place.c: states, trial steps, roots */
 size_t locate_numbers(const problem *, size_t count); /* of a place with so many switches */
 void locate_copy(place *to, const place *from, const problem *, size_t count);
 void locate_swap(place *, place *);
@@ -63,17 +62,7 @@ double locate_gap(const locate *, size_t k, const place *at);
 double locate_least_gap(const locate *, const place *at, const double *size);
 /* Computes the state at the time `way` from `at`, by Taylor's formula. */
 void locate_follow(const problem *, const place *at, double way, double *x, double *v);
-
-/* locate_root.c: where an argument leaves its side */
-motus_status locate_dip(motus_run *, double h, double *fraction, motus_error *);
 motus_status locate_root(motus_run *, double *h, bool *failed, motus_error *);
-
-/* locate_side.c: changing sides */
-motus_status locate_slides(const motus_run *, size_t k, motus_error *);
-size_t locate_change(locate *);
-size_t locate_change_ahead(locate *, double way);
-double locate_lateness(locate *, double h);
-motus_status locate_settle(motus_run *, motus_error *);
 
 /* locate_piece.c: a step in pieces */
 bool locate_sure(const locate *, const place *from, const place *to);

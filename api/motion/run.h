@@ -74,7 +74,7 @@ struct motus_run {
     double told; /* when `progress` was last called */
     char *saved;
     size_t saved_room;
-    bool locating;              /* the definition asks that steps end at switches */
+    bool unswitched;            /* steps are to end at switches, and there are none */
     struct locate *locate;      /* NULL: switches end no fixed steps */
     const rules *rules;         /* of the system; NULL: it has none */
     events *events;             /* NULL: the system has no rules */

@@ -5,10 +5,7 @@ motus_status run_events_begin(motus_run *r, motus_error *err)
 {
     motus_status status = system_rules(r->system, &r->rules, err);
     if (status != MOTUS_OK || !r->rules) return status;
-    if (r->locate)
-        return fail(err, MOTUS_UNAVAILABLE,
-                    "a run with events cannot resolve switches, nor locate those beyond which the force may be "
-                    "undefined by steps of one size");
+    if (r->locate) return fail(err, MOTUS_UNAVAILABLE, "a run with events cannot resolve switches");
     if (!r->events) status = events_create(r->rules, &r->machine, &r->chosen, &r->allocator, &r->events, err);
     if (status == MOTUS_OK) events_may_save(r->events);
     return status == MOTUS_OK ? events_begin(r->events, r->stepper, r->timing.until, err) : status;

@@ -96,8 +96,5 @@ motus_status located_for(motus_system *s, const chosen *method, motus_switches a
         const motus_status found = located_of(s, asked, out, why, err);
         return found == MOTUS_OK && *out && method->row->expands ? check_series(*out, err) : found;
     }
-    if (asked != MOTUS_SWITCHES_LOCATE || row_formula(method)) return MOTUS_OK;
-    const motus_status status = located_of(s, asked, out, why, err);
-    if (*out && has_domain((*out)->model)) *out = NULL;
-    return status;
+    return asked == MOTUS_SWITCHES_LOCATE && !row_formula(method) ? located_of(s, asked, out, why, err) : MOTUS_OK;
 }

@@ -185,8 +185,7 @@ bool located_kinks(const model *);
  * another choice: NULL. Use it only until the system's numbers are set again. */
 motus_status located_of(motus_system *, motus_switches asked, motus_system **, const char **why, motus_error *);
 /* Finds the located system for runs of a method, as located_of does. A row of fixed steps gets one only for
- * MOTUS_SWITCHES_LOCATE, and only where the force is defined beyond every switch, since its steps cannot become
- * shorter. */
+ * MOTUS_SWITCHES_LOCATE. */
 motus_status located_for(motus_system *, const chosen *, motus_switches asked, motus_system **, const char **why,
                          motus_error *);
 

@@ -440,15 +440,26 @@ static node rewrite_sum(builder *b, node sum, const nest *around)
     return graph_sum(g, n.level, &inner.at[n.level], condition, body);
 }
 
-/* Returns `with` in place of an operand of a root or a power. If the operand is nowhere negative, as |u| and max(u, 0),
- * then |with| keeps the operation defined where rounding leads a little beyond the side. */
+/* Returns whether the form of a node shows that way times its value is nowhere below `least`. */
+static bool keeps_above(const graph *g, node of, int way, double least)
+{
+    const graph_node n = *graph_at(g, of);
+    if (n.op == OP_CONST) return way * n.value >= least;
+    if (n.op == OP_ABS) return way > 0 && least <= 0;
+    if (n.op != OP_MIN && n.op != OP_MAX) return false;
+    const bool a = keeps_above(g, n.a, way, least), b = keeps_above(g, n.b, way, least);
+    return (n.op == OP_MAX) == (way > 0) ? a || b : a && b;
+}
+
+/* Returns `with` in place of an operand of a root, a power, a logarithm, asin or acos. If the form of the operand shows
+ * that these are defined everywhere, as of max(u, 0), then they stay so where a step leads beyond the side: |with|
+ * stands for what is nowhere negative, and the operand itself for what is clipped to [-1, 1]. */
 static node defined_beyond(graph *g, operation op, node operand, node with)
 {
-    const graph_node n = *graph_at(g, operand), *a = graph_at(g, n.a);
-    const graph_node *b = n.op == OP_MAX ? graph_at(g, n.b) : a;
-    const bool above = n.op == OP_MAX && ((a->op == OP_CONST && a->value >= 0) || (b->op == OP_CONST && b->value >= 0));
-    const bool roots = (op == OP_SQRT || op == OP_POW) && with != operand;
-    return roots && (above || n.op == OP_ABS) ? graph_op(g, OP_ABS, with, 0, 0) : with;
+    const bool roots = op == OP_SQRT || op == OP_POW || op == OP_LOG, arcs = op == OP_ASIN || op == OP_ACOS;
+    if (with == operand) return with;
+    if (arcs && keeps_above(g, operand, 1, -1) && keeps_above(g, operand, -1, -1)) return operand;
+    return roots && keeps_above(g, operand, 1, 0) ? graph_op(g, OP_ABS, with, 0, 0) : with;
 }
 
 /* Returns a node with sides in place of switches. */
