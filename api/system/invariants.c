@@ -415,8 +415,6 @@ motus_status invariants_check(motus_system *s, motus_error *err)
     m->source.error = err;
     const motus_status status = check(s, err);
     m->source.error = NULL;
-    m->source.failed = false;                         /* the text can be read: its numbers contradict its claims */
-    return status == MOTUS_MEMORY || m->arena->failed /* the search for kinks says nothing of it */
-               ? fail(err, MOTUS_MEMORY, "no memory to check the model's claims")
-               : status;
+    m->source.failed = false; /* the text can be read: its numbers contradict its claims */
+    return status == MOTUS_MEMORY ? fail(err, MOTUS_MEMORY, "no memory to check the model's claims") : status;
 }
