@@ -91,7 +91,7 @@ const CHOOSING = {
 /** A method newer than its list: behind all of it, in the catalogue's order. */
 function place(method: string, order: readonly string[], rows: readonly Method[]): number {
   const known = order.indexOf(method);
-  return known >= 0 ? known : order.length + Math.max(0, rows.filter((m) => !order.includes(m.name) && m.order > 0).findIndex((m) => m.name === method));
+  return known >= 0 ? known : order.length + Math.max(0, rows.filter((m) => !order.includes(m.name) && m.order !== 0).findIndex((m) => m.name === method));
 }
 
 /** Which colour, dash and marker: each further round of the colours meets them again with another dash and another marker. */
