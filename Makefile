@@ -2,7 +2,7 @@
 # make demo         runs and compares the founding models; tables here, plots in out/
 # make lab          the page: build/lab/ for a server, build/lab/motus-lab.html for a double click
 # make test         the tests of a change, in minutes: see test/steps; ends with "N passed, N failed"
-# make test-all     every test: besides, sanitizers, fuzzers, browsers, MPI, Slurm, aarch64; names what this machine cannot run
+# make test-all     every test: besides, sanitizers, fuzzers, browsers, MPI, Slurm, aarch64, musl; names what this machine cannot run
 # make test-aarch64 every test program, compiled for aarch64 and run by qemu (make test-all does a part of it)
 # make bench        ratios to hand-written code and to other libraries, and the page's times; RESULTS=bench/results keeps them
 # make install      PREFIX=/usr/local DESTDIR=
@@ -46,7 +46,7 @@ test:
 
 test-all:
 	@cmake/need.sh build demo test
-	@cmake/need.sh --where-possible archives cluster cross lab page fuzz format
+	@cmake/need.sh --where-possible archives cluster cross musl lab page fuzz format
 	@MAKEFLAGS= CMAKE_BUILD_PARALLEL_LEVEL=$(JOBS) test/summary all
 
 test-aarch64: all

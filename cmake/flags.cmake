@@ -17,6 +17,12 @@ endif()
 
 # -fno-trapping-math: the code reads no exception flags, so a loop may compute both sides of a choice; no value changes.
 set(hot -O3 -fno-trapping-math)
+# Where gcc optimises little it sees less, and warns of what cannot be.
+set(seen_less $<$<C_COMPILER_ID:GNU>:-Wno-format-truncation> $<$<C_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
+if(MOTUS_QUICK)
+  set(hot -fno-trapping-math)
+  target_compile_options(motus_flags INTERFACE ${seen_less})
+endif()
 if(MOTUS_SANITIZE)
   # -O3 would make compiling slow, and a sanitized build need not be fast.
   set(hot "")
@@ -32,7 +38,9 @@ endif()
 # sources call fma() explicitly, and without the instruction the C library computes the same value.
 set(isas base)
 set(isa_flags_base "")
-if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|amd64|AMD64)$" AND CMAKE_SIZEOF_VOID_P EQUAL 8)
+if(MOTUS_QUICK)
+  target_compile_definitions(motus_flags INTERFACE ONE_ISA)
+elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|amd64|AMD64)$" AND CMAKE_SIZEOF_VOID_P EQUAL 8)
   list(APPEND isas avx2 avx512)
   set(isa_flags_avx2 -mavx2 -mfma)
   set(isa_flags_avx512 -mavx2 -mavx512f -mavx512dq -mavx512vl -mfma -mprefer-vector-width=512)

@@ -2,7 +2,7 @@
 # Checks that the packages which a target needs are installed. Missing ones are installed by apt-get if this user may do so (root, or
 # sudo without a password); otherwise the script prints the command that installs them, and the exit status is 1.
 #
-#   cmake/need.sh [--check | --where-possible] build|demo|test|archives|cluster|cross|aarch64|lab|page|bench|fuzz|format|tidy ...
+#   cmake/need.sh [--check | --where-possible] build|demo|test|archives|cluster|cross|musl|aarch64|lab|page|bench|fuzz|format|tidy ...
 #
 # --check installs nothing. --where-possible installs what can be had here, names the rest in a line, and the exit status is 0.
 set -eu
@@ -46,6 +46,7 @@ for what; do
     # a cross compiler with its C library, and what runs its programs
     cross) [ "$(uname -m)" = aarch64 ] || { tool aarch64-linux-gnu-gcc gcc-aarch64-linux-gnu
            [ -e /usr/aarch64-linux-gnu/include/stdio.h ] || add libc6-dev-arm64-cross; tool qemu-aarch64 qemu-user; } ;;
+    musl)  tool musl-gcc musl-tools ;;
     # the libraries of the tests for aarch64, besides
     aarch64) for library in cmocka mpfr; do
              [ -e /usr/lib/aarch64-linux-gnu/lib$library.so ] || add lib$library-dev:arm64

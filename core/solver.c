@@ -26,7 +26,7 @@ struct solver {
 
 const solver_band *solver_best_band(void)
 {
-#if defined __x86_64__ && !defined ONE_COPY
+#if defined __x86_64__ && !defined ONE_COPY && !defined ONE_ISA
     __builtin_cpu_init();
     const bool avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
     if (avx2 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&

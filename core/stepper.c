@@ -16,7 +16,7 @@ const stepper_body *stepper_best_body(void)
 {
 #if defined ONE_COPY /* where size counts more than speed: the body of traced steps serves for all */
     return &trace_body;
-#elif defined __x86_64__
+#elif defined __x86_64__ && !defined ONE_ISA
     __builtin_cpu_init();
     const bool avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
     if (avx2 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&

@@ -11,7 +11,7 @@ scratch=$(mktemp -d) || exit 1
 trap 'rm -rf "$scratch"' EXIT
 export XDG_CACHE_HOME=$scratch/cache
 
-method=taylor tolerance=(--tolerance 1e-15)
+turn=0 method=taylor tolerance=(--tolerance 1e-15)
 rows() { "$motus" sweep "$@" --method "$method" "${tolerance[@]}" --quiet 2>/dev/null | grep -E '^[0-9]' | awk '{ print } END { print NR }'; }
 lanes_of() { rm -f "$scratch/rows"; "$motus" sweep "$@" --method "$method" "${tolerance[@]}" --json -o "$scratch/rows" 2>&1 | sed -n 's/.*"lanes": \([^,}]*\).*/\1/p'; }
 
@@ -21,10 +21,14 @@ agree() {
     shift 3
     alone=$(rows "$model" "$@" --machine interpreter)
     check "$name: trajectories one at a time" "$(tail -n 1 <<<"$alone")" "$count"
-    for lanes in 1 2 8 16; do
+    # A text is compiled for each width, so a case has two of the four.
+    turn=$((turn + 1))
+    local widths=(1 8)
+    [ $((turn % 2)) = 1 ] || widths=(2 16)
+    for lanes in "${widths[@]}"; do
         check "$name: $lanes lanes, the same bits" "$(rows "$model" "$@" --machine compiled --lanes $lanes --threads 2)" "$alone"
     done
-    check "$name: and it is lanes that computed them" "$(lanes_of "$model" "$@" --machine compiled --lanes 8)" 8
+    check "$name: and it is lanes that computed them" "$(lanes_of "$model" "$@" --machine compiled --lanes $lanes)" $lanes
 }
 
 # Steps end at switches, so trajectories are computed one at a time; where they lead across, lanes compute them.

@@ -27,7 +27,7 @@ struct tape {
 
 /* Machines --------------------------------------------------------------------------------------------------------- */
 
-#if defined(__x86_64__)
+#if defined __x86_64__ && !defined ONE_ISA
 static bool runs_avx512(void)
 {
     return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&

@@ -1,5 +1,5 @@
 /* STEP DOUBLING over the explicit midpoint rule: a step of h beside two of h/2; their distance, over 2² - 1, is the
- * error of the two. A family that test/family.sh adds, to see that it runs on every machine. Its dense output is its
+ * error of the two. A family that test/additions.sh adds, to see that it runs on every machine. Its dense output is its
  * own: a cubic for each half, so that the ends of a step tell nothing of what is between them. What it reads of the
  * step, the state in the middle and the bends, are its "stages". */
 static int doubling_midpoint(work *w, coef from, coef to, const real *x, const real *v, real *X, real *V)

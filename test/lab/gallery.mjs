@@ -162,6 +162,8 @@ await attempt('every width', async () => {
     const boxes = await page.locator('a.motion').evaluateAll((all) => all.map((a) => { const { x, y, width: w, height } = a.getBoundingClientRect(); return { x, y, w, height }; }));
     same(`${width} px: so many a row`, boxes.filter(({ y }) => y === boxes[0].y).length, columns);
     judge(`${width} px: no target is too small`, boxes.every(({ w, height }) => w >= 44 && height >= 44) && (await page.locator('.gallery-search').boundingBox()).height >= 44);
+    // What axe judges depends on the colours, and on whether there is room: the narrowest and the widest.
+    if (width !== 320 && width !== 1920) { await close(`${width} px`, page); continue; }
     await page.evaluate(readFileSync(need.resolve('axe-core/axe.min.js'), 'utf8'));
     const violations = await page.evaluate(() => window.axe.run(document.querySelector('.gallery')).then(({ violations: all }) => all.map(({ id, nodes }) => `${id}: ${nodes[0].html.slice(0, 100)}`)));
     same(`${width} px, ${theme}: axe has nothing to say`, violations, []);

@@ -160,9 +160,11 @@ test('times that are next to each other are not divided', () => {
 });
 
 test('a motion that is slow to ask ends in time', () => {
-  const slow = motion(0, 100, [-1], (t) => { const until = performance.now() + 0.02; while (performance.now() < until); return [Math.sin(t * t)]; });
-  const began = performance.now(), curve = sample(slow, { ...limits, milliseconds: 60 });
-  assert.ok(performance.now() - began < 1500);
+  let asked = 0;
+  const slow = motion(0, 100, [-1], (t) => { asked++; const until = performance.now() + 0.02; while (performance.now() < until); return [Math.sin(t * t)]; });
+  const curve = sample(slow, { ...limits, milliseconds: 60 });
+  // There is room for 3000 of them in 60 ms, on a busy machine for fewer.
+  assert.ok(asked < 2 * 60 / 0.02, asked);
   ordered(curve, 0, 100);
 });
 

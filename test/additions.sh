@@ -1,6 +1,8 @@
 #!/bin/bash
-# Adds a family of methods as HOUSE.md describes: a text in step/, its two lines in step/families.def, a row in core/methods.c, and nothing else. The
-# family adapts its steps (test/family/doubling.h). A copy of the sources with it is built, and has to give the same bits on every machine.
+# Adds a family of methods and two functions of the language as HOUSE.md describes, to one copy of the sources, which has to give the same bits on every
+# machine. The family is a text in step/, its two lines in step/families.def and its rows in core/methods.c; it adapts its steps
+# (test/family/doubling.h). cube(x) is a formula: a row in lang/base/operations.def and its recurrence in step/series.h. root4(x) has an evaluation in
+# step/functions/ besides. Nothing else is touched.
 set -u
 cd "$(dirname "$0")/.." || exit 1
 export LC_ALL=C
@@ -12,6 +14,7 @@ trap 'rm -rf "$copy"' EXIT
 export XDG_CACHE_HOME=$copy/cache
 
 git ls-files -z --cached --others --exclude-standard | tar --null -T - -cf - 2>/dev/null | tar -xf - -C "$copy"
+touched() { for folder in step core machine lang api; do diff -rq $folder "$copy/$folder"; done | sed "s|Files .* and $copy/||; s|Only in $copy/||; s/ differ//; s|: |/|" | sort | tr '\n' ' '; }
 cp test/family/doubling.h "$copy/step/doubling.h"
 sed -i 's|^    X(TAYLOR, .*)$|& \\\n    X(DOUBLING, doubling, "", SWINGS)|; s|^#include "step/taylor.h"$|&\n#include "step/doubling.h"|' "$copy/step/families.def"
 card() { echo "    { .card = { CARD(\"$1\", \"\", \"test\", 2, 1, 6, XVT, 0, 0, 0.0), .title = \"$1\", .cite = \"\", .formula = \"\", .use = \"\"$2 },\\"; }
@@ -20,18 +23,56 @@ row="$(card doubling ', .adaptive = 1')
 $(card doubling-fixed '')
       .family = DOUBLING },"
 sed -i "/CARD(\"exact\"/i $row" "$copy/core/methods.c"
-check "a family touches a text, the list and the rows" \
-    "$(for folder in step core machine lang api; do diff -rq $folder "$copy/$folder"; done | sed "s|$copy/||g" | tr '\n' ';')" \
-    "Only in step: doubling.h;Files step/families.def and step/families.def differ;Files core/methods.c and core/methods.c differ;"
+check "a family touches a text, the list and the rows" "$(touched)" "core/methods.c step/doubling.h step/families.def "
 
-(cd "$copy" && cmake --preset release >/dev/null && cmake --build build --target motus_program) >"$copy/log" 2>&1
-check "it builds without a warning" "$?" 0
-motus=$copy/build/motus model=models/kepler.motus
+cat >"$copy/row" <<'END'
+UNARY(CUBE, "cube", CURVED, RISES | IS_WORD, a * a * a, MUL(MUL(CONST(3), MUL(A, A)), DA),
+       2, "aa1a", series_cube(r, length, a, n, in))
+FUNC1(ROOT4, root4, "root", CURVED, STEEP_AT_0 | HAS_DOMAIN | IS_WORD, DIV(DA, MUL(CONST(4), MUL(R, MUL(R, R)))),
+       2, "ra1a", series_root4(r, length, a, n, in))
+
+END
+cat >"$copy/evaluation" <<'END'
+INLINE reals NAME(root4)(reals x) { return SQRT(SQRT(x)); }
+
+END
+cat >"$copy/recurrence" <<'END'
+/* The square is a helper. */
+SERIES_FUNCTION real series_cube(real *r, const int length, const series a, const int n, const real *in)
+{
+    real *const square = SERIES_HELPER(1);
+    square[n] = n ? series_product(a, a, n, SERIES_GIVEN(0)) : a.at[0] * a.at[0];
+    return n ? series_product(SERIES_FROM(square), a, n, SERIES_GIVEN(1)) : a.at[0] * a.at[0] * a.at[0];
+}
+
+END
+cat >>"$copy/recurrence" <<'END'
+SERIES_FUNCTION real series_root4(real *r, const int length, const series a, const int n, const real *in)
+{
+    const real start = n == 0 ? SERIES_OF(root4)(a.at[0]) : SERIES_NUMBER(0.0);
+    return series_power(r, length, a, SERIES_NUMBER(0.25), start, n, in);
+}
+
+END
+last() { grep -n "$1" "$2" | tail -n 1 | cut -d: -f1; }
+sed -i "$(($(last '^#undef OF$' "$copy/lang/base/operations.def") - 1))r $copy/row" "$copy/lang/base/operations.def"
+sed -i "$(($(last '^/\* Exponentials and angles' "$copy/step/series.h") - 1))r $copy/recurrence" "$copy/step/series.h"
+sed -i "$(($(last '^INLINE reals NAME(hypot)' "$copy/step/functions/root.h") - 1))r $copy/evaluation" "$copy/step/functions/root.h"
+check "a function touches its row, its series and its evaluation" "$(touched)" \
+    "core/methods.c lang/base/operations.def step/doubling.h step/families.def step/functions/root.h step/series.h "
+(cd "$copy" && cmake --preset release -DMOTUS_QUICK=ON -DMOTUS_HDF5=OFF >/dev/null && cmake --build build --target motus_program) >"$copy/log" 2>&1
+built=$?
+check "they build without a warning" "$built" 0
+[ $built = 0 ] || { grep -E -A3 '(error|warning): ' "$copy/log" | head -n 20; echo "$passed passed, $failed failed"; exit 1; }
+motus=$copy/build/motus
 value() { sed -n "s/.*\"$1\": \([^,}]*\).*/\1/p"; }
+state() { sed -n 's/.*\("state": {[^}]*}\).*/\1/p'; }
+
+# --- the family ---
+model=models/kepler.motus
 
 slow=$("$motus" run $model --method doubling --until 3 --machine interpreter --json 2>&1)
 fast=$("$motus" run $model --method doubling --until 3 --machine compiled --json 2>&1)
-state() { sed -n 's/.*\("state": {[^}]*}\).*/\1/p'; }
 check "interpreter and compiled machine: the same bits" "$(state <<<"$fast")" "$(state <<<"$slow")"
 holds "a run ends exactly at its end" "$(value time <<<"$slow") == 3"
 steps=$(value steps <<<"$slow") work=$(value evaluations <<<"$slow")
@@ -102,5 +143,39 @@ level=(level --method doubling --tolerance 1e-2 --until 100 --vary level=0.9:0.9
 check "events of watched steps, in lanes" "$(numbers "${level[@]}" --machine compiled --lanes 8)" "$(numbers "${level[@]}" --machine interpreter)"
 check "one at every maximum, also where both ends of the step are below the level" "$(numbers "${level[@]}" --machine interpreter | cut -d, -f3 | sort -u)" 16
 check "and it is lanes that followed them" "$(counts "${level[@]}" --machine compiled --lanes 8 --json -o "$copy/levels" | value lanes)" 8
+
+# --- the functions ---
+model() { printf "x'' = -%s - 0.1 x'\nx(0) = 1\nx'(0) = 0\nlevel = 0.5\nn = 0\nwhen %s > level: n = n + 1\n" "$1" "$1"; }
+model 'cube(x)' >"$copy/cube.motus"
+model 'x x x' >"$copy/product.motus"
+printf "x'' = 1 - root4(x) - 0.1 x'\nx(0) = 3\nx'(0) = 0\n" >"$copy/root4.motus"
+sed 's/root4(x)/sqrt(sqrt(x))/' "$copy/root4.motus" >"$copy/roots.motus"
+run_function() { "$motus" run "$copy/$1.motus" --until 20 "${@:2}" --json 2>&1; }
+for method in dop853 taylor 'gauss4 --step 0.01' 'leapfrog --step 0.01'; do
+    while read -r model other; do
+        slow=$(run_function "$model" --machine interpreter --method $method | state) fast=$(run_function "$model" --machine compiled --method $method | state)
+        check "$model, ${method%% *}: the same bits on both machines" "$fast" "$slow"
+        here=$(value x <<<"$slow") there=$(run_function "$other" --machine interpreter --method $method | state | value x)
+        holds "$model, ${method%% *}: $here beside $there of $other" "length(\"$here\") > 5 && ($here - $there) ^ 2 < 1e-20"
+    done <<<"cube product
+root4 roots"
+done
+# Where cube is -1 there is a pulse that no step would meet: bounds of cube show that it is there.
+pulse() { printf "u = 10 (t - 5)\nx'' = exp(-10000 (%s + 1)^2)\nx(0) = 0\nx'(0) = 0\n" "$1"; }
+pulse 'cube(u)' >"$copy/cubed.motus"
+pulse 'u^3' >"$copy/power.motus"
+here=$(run_function cubed --method dop853 | state | value x) there=$(run_function power --method dop853 | state | value x)
+holds "a narrow pulse of it, $here beside $there" "$here > 1e-6 && ($here / $there - 1) ^ 2 < 1e-12"
+printf "x'' = -cub(x)\nx(0) = 1\nx'(0) = 0\n" >"$copy/near.motus"
+check "a word that is nearly its name: cube is meant" "$("$motus" check "$copy/near.motus" 2>&1 | grep -c 'did you mean cube')" 1
+printf "x'' = -cube(x, 2)\nx(0) = 1\nx'(0) = 0\n" >"$copy/many.motus"
+check "it takes one operand" "$("$motus" check "$copy/many.motus" >/dev/null 2>&1; echo $?)" "$("$motus" check <(sed 's/cube/sin/' "$copy/many.motus") >/dev/null 2>&1; echo $?)"
+levels() { "$motus" sweep "$copy/$1.motus" --method dop853 --vary level=-0.9:0.9:16 --record n --error none --until 20 --quiet "${@:2}" 2>&1 | grep '^[0-9]'; }
+along() { "$motus" sweep "$copy/$1.motus" --method dop853 --vary x=2:3:16 --record x --error none --until 5 --quiet "${@:2}" 2>&1 | grep '^[0-9]'; }
+check "root4 in lanes as one by one" "$(along root4 --machine compiled --lanes 8)" "$(along root4 --machine interpreter)"
+lanes=$(levels cube --machine compiled --lanes 8)
+check "events of it, in lanes as one by one" "$lanes" "$(levels cube --machine interpreter)"
+check "as many as of x x x" "$lanes" "$(levels product --machine interpreter)"
+holds "some happen" "$(awk -F, '{ n += $3 } END { print n + 0 }' <<<"$lanes") > 4"
 echo "$passed passed, $failed failed"
 [ $failed = 0 ]
