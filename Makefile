@@ -69,8 +69,8 @@ install: all
 	@$(CMAKE) --install build
 
 fuzz:
-	@cmake/need.sh build fuzz
-	@$(CMAKE) --preset fuzz >/dev/null && $(CMAKE) --build --preset fuzz
+	@cmake/need.sh build test fuzz
+	@$(CMAKE) --preset asan >/dev/null && $(CMAKE) --build --preset asan --target fuzzers
 	@FUZZ_SECONDS=$(FUZZ_SECONDS) cmake/fuzz.sh
 
 # The layout of every C file, by .clang-format; test/format.sh checks it.

@@ -7,6 +7,9 @@ set_target_properties(motus_archive PROPERTIES OUTPUT_NAME motus-archive POSITIO
 target_include_directories(motus_archive PRIVATE ${PROJECT_SOURCE_DIR} PUBLIC
   $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
 target_link_libraries(motus_archive PRIVATE motus_flags PUBLIC motus_static)
+if(MOTUS_FUZZ)
+  target_compile_options(motus_archive PRIVATE -fsanitize=fuzzer-no-link)
+endif()
 
 if(MOTUS_HDF5 AND NOT CMAKE_CROSSCOMPILING)
   find_package(PkgConfig QUIET)

@@ -27,11 +27,8 @@ if(MOTUS_SANITIZE)
   # -O3 would make compiling slow, and a sanitized build need not be fast.
   set(hot "")
   target_compile_options(motus_flags INTERFACE
-    -g -O1 -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all)
+    -g1 -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all)
   target_link_options(motus_flags INTERFACE -fsanitize=address,undefined)
-endif()
-if(MOTUS_FUZZ)
-  target_compile_options(motus_flags INTERFACE -fsanitize=fuzzer-no-link)
 endif()
 
 # Instruction sets for which the kernels are built; the library chooses one when it starts. The FMA instruction changes no bits: the

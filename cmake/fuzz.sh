@@ -1,11 +1,12 @@
 #!/bin/sh
-# Runs every fuzzer of build/fuzz/test for FUZZ_SECONDS over test/corpus. New inputs go to build/fuzz, so that the committed corpus
+# Runs every fuzzer of build/asan/test for FUZZ_SECONDS over test/corpus. New inputs go to build/fuzz, so that the committed corpus
 # changes only by hand. After a crash the input is there too, and the script prints the command that repeats it.
 set -u
 cd "$(dirname "$0")/.."
 seconds=${FUZZ_SECONDS:-60}
 passed=0 failed=0
-for fuzzer in build/fuzz/test/fuzz_*; do
+mkdir -p build/fuzz
+for fuzzer in build/asan/test/fuzz_*; do
     [ -x "$fuzzer" ] || continue
     name=$(basename "$fuzzer")
     mkdir -p "build/fuzz/corpus/$name"

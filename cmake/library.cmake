@@ -46,6 +46,10 @@ foreach(source IN LISTS library_sources)
   if(source MATCHES "^(core/solver|core/roots|lang/tape/|machine/)")
     set_property(SOURCE ${source} APPEND PROPERTY COMPILE_OPTIONS ${hot})
   endif()
+  # What the fuzzers feed tells them where it has been.
+  if(MOTUS_FUZZ AND source MATCHES "^(lang/|core/roots)")
+    set_property(SOURCE ${source} APPEND PROPERTY COMPILE_OPTIONS -fsanitize=fuzzer-no-link)
+  endif()
 endforeach()
 
 # The step of the trace runs once per call, so it is compiled for size.
