@@ -64,10 +64,23 @@ bool archived_says(const motus_archive *file, const char *name, const char *text
     return its ? text && strcmp(its, text) == 0 : !text;
 }
 
-motus_status archived_by_other(const char *path, const char *version, const char *why, motus_error *err)
+motus_status archived_compared(const char *path, const char *version, bool compared, const char *where, bool quiet,
+                               motus_error *err)
 {
-    return complain(err, MOTUS_STATE, "finish it with that version, or start again with --force",
-                    "%s was begun by motus %.40s, and %s", path, version, why);
+    if (compared && !where) {
+        if (!quiet)
+            complain_note("%s was begun by motus %.40s; some of its rows, computed again, have the same bits", path,
+                          version);
+        return MOTUS_OK;
+    }
+    if (compared)
+        fail(err, MOTUS_STATE, "%s was begun by motus %.40s, and this motus, %s, computes other bits: %s", path,
+             version, motus_version(), where);
+    else
+        fail(err, MOTUS_STATE, "%s was begun by motus %.40s, and has no block that shows whether the bits are the same",
+             path, version);
+    hint(err, "finish it with that version, or start again with --force");
+    return MOTUS_STATE;
 }
 
 motus_status block_room_make(block_room *r, size_t count, size_t rows, motus_error *err)

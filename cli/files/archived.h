@@ -18,8 +18,10 @@ const char *archived_note(const motus_archive *, const char *name);
 motus_status archived_numbers(motus_archive *, const char *path, uint64_t block, motus_error *);
 /* Makes the error for an archive of another sweep or run (`what`), with the command that made it. */
 motus_status archived_another(motus_archive *, const char *path, const char *what, motus_error *);
-/* Makes the error for a file that another version began, with the reason why this one cannot continue it. */
-motus_status archived_by_other(const char *path, const char *version, const char *why, motus_error *);
+/* Reports on a file that another version began, after some of its rows were computed again: a note if they have the
+ * same bits (`where` is NULL), or else an error. `compared` is false if the file has no rows to compare. */
+motus_status archived_compared(const char *path, const char *version, bool compared, const char *where, bool quiet,
+                               motus_error *);
 
 /* Memory for the columns of one block. */
 typedef struct block_room {

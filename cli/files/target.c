@@ -92,8 +92,7 @@ motus_status target_lock(const char *path, int *descriptor, bool *regular, motus
     if (*descriptor < 0 && access(path, F_OK) == 0) /* a pipe or a device may not be readable */
         *descriptor = open(path, O_WRONLY | O_CLOEXEC);
     if (*descriptor < 0) errno = code;
-    if (*descriptor < 0 || fstat(*descriptor, &about) != 0)
-        return fail(err, MOTUS_FILE, "cannot write %s: %s", path, strerror(errno));
+    if (*descriptor < 0 || fstat(*descriptor, &about) != 0) return file_cannot("write", path, errno, err);
     *regular = S_ISREG(about.st_mode);
     if (!*regular) return MOTUS_OK;
     if (target_take(path, *descriptor)) {

@@ -1,11 +1,11 @@
-/* The archive of a run, FILE.h5: its rows, and the states from which it goes on.
+/* The archive of a run, FILE.h5: its rows, and the states from which it continues.
  *
- * The rows lie in blocks, which are written when they are complete. A state has the rows of the block that is not, so
- * that a run goes on from it even if that block was being written when the process was killed.
+ * The rows lie in blocks, and a block is written when it is complete. A state has the rows of the incomplete block,
+ * so that a run can continue from it even if the process was killed while it wrote that block.
  *
- * Invariants: the file opens at any time and tells which blocks are there. It grows by another file, which takes its
- * name when it has all that the old one had. At the end its bytes depend on the run alone: how many rows it has room
- * for and how large the slots of states are follow from the rows and from the first and the last state. */
+ * Invariants: the file can be opened at any time and shows which blocks it has. To grow, it is replaced by another
+ * file, which takes its name when it has all that the old file has. The bytes of a finished file depend only on the
+ * run: the number of rows and the size of the slots for states follow from the rows, the first and the last state. */
 #include "cli/run/run.h"
 
 #include "base/decimal.h"
@@ -31,32 +31,34 @@ struct run_archive {
     run_archive_def of;
     const char *path;
     char *command, fingerprint[RUN_FINGERPRINT];
-    char first_end[64]; /* the note: the time and the rows; "": steps do not adapt, or it has gone to one end alone */
+    char first_end[64]; /* the note RUN_FIRST_END; "": the steps are fixed, or the run has had only one end */
     int descriptor;     /* of the lock */
     motus_archive *file;
     run_columns columns;
-    double **rooms; /* of each column, for a block of rows */
+    double **rooms; /* for a block of rows */
     size_t block;
-    uint64_t rows, capacity;
-    uint64_t kept;           /* how many rows the last state has that is in the file */
-    size_t slot, first_slot; /* what a state may have, and what the first one asks for */
+    uint64_t rows, capacity; /* rows that were taken; rows that the file has room for */
+    uint64_t kept;           /* the rows before the last state in the file */
+    size_t slot, first_slot; /* the size of a slot for states; the size that the first state needs */
     int64_t samples;
     double time;         /* of the row that is taken */
-    double jumps[JUMPS]; /* the times of the last rows at jumps, */
-    uint64_t jump_rows;  /*   of so many */
-    bool made, goes_on;  /* this command has made the file; the run stands at a state of it, */
-    bool finished;       /* all is in the file */
-    bool due;            /*   and the row that may be due there has not been taken */
-    char *last;          /* a state of the last steps, where there are events; NULL: there is none */
+    double jumps[JUMPS]; /* the times of the last rows at jumps */
+    uint64_t jump_rows;  /* the number of rows at jumps */
+    bool made;           /* this command has made the file */
+    bool goes_on;        /* the run has been moved to a state of the file */
+    bool due;            /* the row that may be due at that state has not been taken */
+    bool finished;       /* everything is in the file */
+    char *last;          /* a state of the last steps, if there are events; NULL: there is none */
     size_t last_length, last_needs;
-    bool end_row; /* the last row was taken at the end, not at a jump */
+    bool end_row; /* the last row was taken at the end, and not at a jump */
 };
 
 /* ---- sizes ---- */
 
 static size_t rest_most(const run_archive *a) { return a->block * a->columns.width * sizeof(double); }
 
-/* How many rows the run has up to its end, if nothing happens on the way; where steps adapt, a guess: *known false. */
+/* Returns how many rows the run has up to its end, if no events add rows. *known is false if it is a guess, since the
+ * steps are adaptive. */
 static uint64_t expected_rows(const run_archive *a, bool *known)
 {
     const walk_observer *rows = a->of.rows;
@@ -73,8 +75,8 @@ static uint64_t expected_rows(const run_archive *a, bool *known)
 
 /* ---- the file ---- */
 
-/* In the empty file of this descriptor; -1: it gets its name. `from`: NULL, or the archive whose rows the file has,
- * compressed. */
+/* Makes an archive in the empty file `descriptor`, or, if that is -1, under the name `path`. If `from` is not NULL,
+ * it has the rows of that archive, compressed. */
 static motus_status create(const run_archive *a, const char *path, int descriptor, uint64_t rows, size_t slot,
                            motus_archive *from, motus_error *err)
 {
@@ -92,11 +94,11 @@ static motus_status create(const run_archive *a, const char *path, int descripto
     d.slot = slot;
     d.from = from;
     d.descriptor = descriptor + 1;
-    d.stop = from ? stop_asked : NULL; /* a run that is stopped makes its file the right size */
+    d.stop = from ? stop_asked : NULL; /* a run that is stopped must still make its file the right size */
     return motus_archive_create(path, &d, err);
 }
 
-/* Only one program writes the file. */
+/* Locks the file, so that only one program writes it. */
 static motus_status lock(const char *path, int *descriptor, motus_error *err)
 {
     bool regular = true;
@@ -113,7 +115,7 @@ static motus_status copy_blocks(const run_archive *a, motus_archive *from, motus
         int whole;
         for (size_t k = 0; !status && k < a->columns.count; k++)
             status = motus_archive_read(from, k, b * a->block, a->block, rooms[k], err);
-        if (!status) status = motus_archive_whole(from, b, &whole, err); /* else damage would get a hash that fits */
+        if (!status) status = motus_archive_whole(from, b, &whole, err); /* the copy gets a new hash that matches */
         if (!status && !whole) status = fail(err, MOTUS_STATE, "block %" PRIu64 " of %s is damaged", b + 1, a->path);
         if (!status) status = motus_archive_write(to, b, (const void *const *)rooms, err);
     }
@@ -121,7 +123,7 @@ static motus_status copy_blocks(const run_archive *a, motus_archive *from, motus
     return status;
 }
 
-/* The latest state of the file, where there are bytes of none. */
+/* Writes a state, or, if `bytes` is NULL, the latest state of `from`. */
 static motus_status put_state(motus_archive *from, motus_archive *to, const char *bytes, size_t length,
                               motus_error *err)
 {
@@ -132,17 +134,17 @@ static motus_status put_state(motus_archive *from, motus_archive *to, const char
     return status;
 }
 
-/* The lock of a file that has no name yet, by another descriptor of it. */
+/* Locks a file that has no name yet, by another descriptor. */
 static motus_status lock_beside(const run_archive *a, const file_beside *f, int *descriptor, motus_error *err)
 {
     if (f->descriptor < 0) return lock(f->path, descriptor, err);
     *descriptor = fcntl(f->descriptor, F_DUPFD_CLOEXEC, 0);
-    if (*descriptor < 0) return fail(err, MOTUS_FILE, "cannot write %s: %s", a->path, strerror(errno));
-    (void)target_take(a->path, *descriptor); /* nobody else has it */
+    if (*descriptor < 0) return file_cannot("write", a->path, errno, err);
+    (void)target_take(a->path, *descriptor); /* no other program can have the lock */
     return MOTUS_OK;
 }
 
-/* Makes the file that replace() puts there. */
+/* Makes the new file of replace(). */
 static motus_status make_beside(const run_archive *a, const file_beside *f, motus_archive *from, uint64_t rows,
                                 size_t slot, const char *state, size_t length, motus_error *err)
 {
@@ -158,9 +160,8 @@ static motus_status make_beside(const run_archive *a, const file_beside *f, motu
     return status;
 }
 
-/* Puts another file in the place of the one that is locked: with the complete blocks of `from`, which may be that one
- * (NULL: none), the state of these bytes (NULL: the latest of `from`), and room for so many rows. It is locked before
- * it has its name. */
+/* Replaces the locked file by another one with the complete blocks of `from`, which may be a->file or NULL, the state
+ * (NULL: the latest of `from`), and room for `rows` rows. The new file is locked before it takes the name. */
 static motus_status replace(run_archive *a, motus_archive *from, uint64_t rows, size_t slot, const char *state,
                             size_t length, motus_error *err)
 {
@@ -172,7 +173,7 @@ static motus_status replace(run_archive *a, motus_archive *from, uint64_t rows, 
     if (!status) status = lock_beside(a, &beside, &descriptor, err);
     if (!status) status = file_beside_keep(&beside, err);
     if (status) file_beside_complain(&beside, a->path, err);
-    if (!status) status = motus_archive_open(a->path, 1, &to, err); /* by the name that its messages are to have */
+    if (!status) status = motus_archive_open(a->path, 1, &to, err); /* errors of `to` will have this name */
     if (!status) {
         motus_archive_close(a->file);
         close(a->descriptor);
@@ -224,7 +225,7 @@ static motus_status jump(void *context, const double *before, const double *afte
 
 /* ---- states ---- */
 
-/* The state of the run with the first `rows` rows; to be freed. *needs: what a slot for such states has. */
+/* Makes the state of the run with its first `rows` rows; the caller frees *bytes. *needs is the size of its slot. */
 static motus_status write_state(run_archive *a, uint64_t rows, bool due, char **bytes, size_t *length, size_t *needs,
                                 motus_error *err)
 {
@@ -238,7 +239,7 @@ static motus_status write_state(run_archive *a, uint64_t rows, bool due, char **
     *needs = run_state_slot(s.length, rest_most(a));
     *bytes = run_state_write(&s, length, &rest);
     if (!*bytes) return complain_memory(err);
-    const bool written = rows / a->block < a->rows / a->block; /* then the rooms have later rows */
+    const bool written = rows / a->block < a->rows / a->block; /* if so, the rooms have later rows */
     for (size_t c = 0; !status && some > 0 && c < a->columns.count; c++) {
         const size_t size = some * a->columns.columns[c].width * sizeof(double);
         if (written)
@@ -265,8 +266,8 @@ static motus_status keep(void *context, motus_error *err)
     return status;
 }
 
-/* Where there are events the library's state at the end is before the last step, with or without what happens where
- * that begins: then one of the last steps serves for the end. */
+/* Remembers a state of the last steps. With events, the library's state at the end is that before the last step,
+ * with or without an event where that step begins; the state of an earlier step is then used for the end. */
 static motus_status remember(void *context, motus_error *err)
 {
     run_archive *a = context;
@@ -280,22 +281,22 @@ static motus_status remember(void *context, motus_error *err)
 
 static bool has_events(const char *state) { return strstr(state, "\nevents ") != NULL; }
 
-/* The time of so many steps of one size from the start, as a run to a later end has it. */
+/* Returns the time after this many fixed steps from the start, as in a run to a later end. */
 static double time_of(const run_archive *a, int64_t steps)
 {
     const double h = motus_run_now(a->of.run).step;
     return a->of.start + (a->of.until < a->of.start ? -h : h) * (double)steps;
 }
 
-/* Whether the last step, of steps of one size, is a shorter one. */
+/* Returns whether the last of fixed steps is shorter than the others. */
 static bool shorter_last(const run_archive *a)
 {
     const int64_t total = motus_run_now(a->of.run).steps_total;
     return total > 0 && fabs(time_of(a, total) - a->of.until) > 1e-6 * motus_run_now(a->of.run).step;
 }
 
-/* Likewise where the end is a whole number of steps only up to rounding: it is no time of a longer run, nor are the
- * times within the last step those of one. */
+/* Returns whether remember() is needed: if there are events; or if the end is a whole number of steps only up to
+ * rounding, so that a longer run has neither that time nor the times within the last step. */
 static bool wants_last(const run_archive *a)
 {
     const char *text;
@@ -306,7 +307,7 @@ static bool wants_last(const run_archive *a)
     return has_events(text) || (!shorter_last(a) && time_of(a, total) != a->of.until);
 }
 
-/* Moves the run to a state of `from`; *found false: it has not that state, or not the blocks before it. */
+/* Moves the run to a state of `from`. *found is false if `from` lacks that state or a block before it. */
 static motus_status take_state(run_archive *a, motus_archive *from, int back, bool *found, motus_error *err)
 {
     char *bytes;
@@ -345,7 +346,7 @@ static motus_status make_rooms(run_archive *a, motus_error *err)
     return a->rooms ? MOTUS_OK : complain_memory(err);
 }
 
-/* Whether the file has the columns of this run in blocks of the same size. */
+/* Returns whether the file has the columns of this run, in blocks of our size. */
 static bool fits(const run_archive *a, motus_archive *file)
 {
     uint64_t first;
@@ -355,7 +356,8 @@ static bool fits(const run_archive *a, motus_archive *file)
     return run_columns_fit(&a->columns, file) && count == (rows < a->block ? rows : a->block);
 }
 
-/* A file that another version has begun goes on if its first rows have the bits that this one computes. */
+/* Compares the first rows of a file that another version has begun with those that this version computes. Fails if a
+ * bit differs. */
 static motus_status compare_versions(const run_archive *a, const char *path, motus_archive *from, const char *version,
                                      motus_error *err)
 {
@@ -364,21 +366,16 @@ static motus_status compare_versions(const run_archive *a, const char *path, mot
     uint64_t first;
     size_t count;
     bool same = true;
-    char where[RUN_WHERE] = "", why[RUN_WHERE + 64];
+    char where[RUN_WHERE] = "";
     motus_status status = motus_archive_whole(from, 0, &whole, err);
     motus_archive_block(from, 0, &first, &count);
-    if (!status && !whole)
-        return archived_by_other(path, version, "there is no block by which to see whether the bits are the same", err);
-    if (!status) status = run_again_rows(a->of.options, from, count < ROWS ? count : ROWS, &same, where, NULL, err);
-    if (status) return status;
-    snprintf(why, sizeof why, "this motus, %s, computes other bits: %s", motus_version(), where);
-    if (!same) return archived_by_other(path, version, why, err);
-    if (!a->of.options->quiet)
-        complain_note("%s was begun by motus %.40s; its first rows, computed again, have the same bits", path, version);
-    return MOTUS_OK;
+    if (!status && whole)
+        status = run_again_rows(a->of.options, from, count < ROWS ? count : ROWS, &same, where, NULL, err);
+    return status ? status : archived_compared(path, version, whole, same ? NULL : where, a->of.options->quiet, err);
 }
 
-/* Opens the file to go on with, and moves the run to its state; `same`: it must be of this very command. */
+/* Opens the file that the run continues, and moves the run to its latest state. If `same`, the file must be of this
+ * command. */
 static motus_status open_source(run_archive *a, const char *path, bool same, motus_archive **from, motus_error *err)
 {
     char print[RUN_FINGERPRINT];
@@ -392,12 +389,12 @@ static motus_status open_source(run_archive *a, const char *path, bool same, mot
     if (strcmp(version, motus_version()) != 0) status = compare_versions(a, path, *from, version, err);
     for (int back = 0; !status && !found && back < 2; back++) status = take_state(a, *from, back, &found, err);
     if (status || found) return status;
-    return complain(err, MOTUS_STATE, "take a copy; or begin anew: its command with --force",
+    return complain(err, MOTUS_STATE, "use a copy of the file, or start again: its command with --force",
                     "%s is damaged: it has no state with all the rows before it", path);
 }
 
-/* Steps that adapt have landed on the end of the file that goes on: those before are not the steps of one run to the
- * later end, by which they could be verified. */
+/* Notes the end of the file that continues if its steps are adaptive: they landed on that end, where a run to the later
+ * end would not, so the rows before it can only be verified by a run to that end. */
 static void note_first_end(run_archive *a, motus_archive *source)
 {
     char time[DECIMAL_MAX];
@@ -408,7 +405,7 @@ static void note_first_end(run_archive *a, motus_archive *source)
         snprintf(a->first_end, sizeof a->first_end, "%s %" PRIu64, decimal(motus_run_time(a->of.run), time), a->rows);
 }
 
-/* The file that there is goes on as it is, or by another one of the right size. */
+/* Continues the file, or replaces it by another one of the right size. */
 static motus_status go_on(run_archive *a, motus_archive *source, bool own, motus_error *err)
 {
     bool known;
@@ -416,7 +413,7 @@ static motus_status go_on(run_archive *a, motus_archive *source, bool own, motus
     const bool stays = own && archived_says(source, "command", a->command) && !motus_archive_compressed(source);
     if (!motus_archive_makes() && !(stays && known && capacity == motus_archive_rows(source)))
         return complain(err, MOTUS_UNAVAILABLE, "install HDF5, and build motus where libhdf5-dev is installed",
-                        "%s: the file would have to be made anew, which needs HDF5", a->path);
+                        "%s: the file must be replaced by a new one, which needs HDF5", a->path);
     note_first_end(a, source);
     if (!stays) return replace(a, source, a->rows > capacity ? a->rows : capacity, a->first_slot, NULL, 0, err);
     a->capacity = motus_archive_rows(source);
@@ -433,8 +430,7 @@ static motus_status begin(run_archive *a, motus_error *err)
     bool known;
     const options *o = a->of.options;
     motus_status status = lock(a->path, &a->descriptor, err);
-    if (!status && fstat(a->descriptor, &about) != 0)
-        status = fail(err, MOTUS_FILE, "cannot read %s: %s", a->path, strerror(errno));
+    if (!status && fstat(a->descriptor, &about) != 0) status = file_cannot("read", a->path, errno, err);
     if (status) return status;
     a->made = about.st_size == 0;
     const char *from = a->of.from;
@@ -447,7 +443,7 @@ static motus_status begin(run_archive *a, motus_error *err)
                         "%s: this motus cannot make archives, since it was built or runs without HDF5", a->path);
     target_tidy(a->path);
     const bool same = !a->made && o->resume;
-    if (same) from = a->path; /* what was begun there goes on */
+    if (same) from = a->path;
     status = write_state(a, 0, true, &bytes, &length, &a->first_slot, err);
     if (!status && !from)
         status = replace(a, NULL, expected_rows(a, &known), a->first_slot, bytes, length, err);
@@ -493,7 +489,7 @@ void run_archive_observe(run_archive *a, walk_observer *rows, walk_keeper *keepe
 
 /* ---- the end ---- */
 
-/* How many times of the period there are up to this time, as walk() counts them. */
+/* Returns how many samples of the period there are up to a time, as walk() counts them. */
 static int64_t samples_up_to(const run_archive *a, double time)
 {
     const double period = a->of.rows->period, sign = a->of.until < a->of.start ? -1 : 1;
@@ -502,9 +498,9 @@ static int64_t samples_up_to(const run_archive *a, double time)
     return k;
 }
 
-/* How many rows, and samples, a run to a later end has too: those up to the last state, but not that of the end, unless
- * it was due there anyway. With steps of one size the last state is before a shorter last step, and where there are
- * events before the last one in any case (motus_run_save). */
+/* Finds how many rows, and samples, a run to a later end has too: those up to the last state, without the row of the
+ * end, unless it is due there anyway. With fixed steps, the last state is before the last step if that is shorter or
+ * if there are events (motus_run_save). */
 static motus_status rows_to_keep(run_archive *a, uint64_t *rows, bool *due, motus_error *err)
 {
     const char *text;
@@ -516,7 +512,7 @@ static motus_status rows_to_keep(run_archive *a, uint64_t *rows, bool *due, motu
     const bool before = total > 0 && taken == total && (has_events(text) || shorter_last(a));
     const bool regular = o->stride > 0 && taken % o->stride == 0 && !before;
     uint64_t more = a->end_row && !regular;
-    if (o->period > 0) a->samples = samples_up_to(a, motus_run_time(a->of.run)); /* an event may have ended it */
+    if (o->period > 0) a->samples = samples_up_to(a, motus_run_time(a->of.run)); /* an event may have ended the run */
     *due = more > 0 && !before;
     if (before) {
         const double at = motus_run_time_of(a->of.run, total - 1), sign = a->of.until < a->of.start ? -1 : 1;
@@ -569,8 +565,8 @@ void run_archive_leave(run_archive *a, bool whole)
     if (whole && a->file && !a->finished) (void)run_archive_finish(a, &ignored);
     if (a->file && a->kept > 0) {
         if (!a->of.options->quiet)
-            complain_note("%s has %" PRIu64 " rows; the same command with --resume, or motus run %s, goes on", a->path,
-                          a->kept, a->path);
+            complain_note("%s has %" PRIu64 " rows; the same command with --resume, or motus run %s, continues",
+                          a->path, a->kept, a->path);
     } else if (a->made && a->descriptor >= 0 && fstat(a->descriptor, &own) == 0 && stat(a->path, &named) == 0 &&
                own.st_dev == named.st_dev && own.st_ino == named.st_ino) {
         unlink(a->path);

@@ -8,7 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Whether columns k, k + 1, … of the CSV are all numbers of a family, whose name is then in `base`; how many. */
+/* Returns how many columns of the CSV, from column k on, are all the numbers of a family, whose name goes to `base`;
+ * 1 if they are not. */
 static size_t family(const csv *c, size_t k, char base[], size_t size)
 {
     motus_column column = motus_default_column();
@@ -22,7 +23,7 @@ static size_t family(const csv *c, size_t k, char base[], size_t size)
     return count;
 }
 
-/* {members, components}, {rows, columns of a lattice}, or {members}. */
+/* Finds the shape of a family: {members, components}, {rows, columns} of a lattice, or {members, 0}. */
 static void shape_of(const csv *c, size_t k, size_t count, size_t shape[2])
 {
     motus_column first = motus_default_column(), last = motus_default_column();
@@ -53,7 +54,8 @@ static void add(run_columns *r, const csv *c, const char *name, const char *more
 
 /* ---- H5MD ---- */
 
-/* A text that lives as long as the columns, of three parts; a / in the name is no folder. NULL: no memory. */
+/* Joins three parts to a text that lives as long as the columns. A / in the name becomes another character, since it
+ * would name a folder. Returns NULL if memory runs out. */
 static const char *keep(run_columns *r, const char *before, const char *name, const char *behind)
 {
     static const char slash[] = "\u2215";
@@ -83,7 +85,7 @@ static void say(run_columns *r, const char *group, const char *name, const char 
     r->attributes[r->attribute_count++] = (motus_archive_attribute){group, name, text, numbers, count};
 }
 
-/* An element: its values, the numbers of the rows, and the times where they are in the file. */
+/* Links an element of H5MD to its values, the numbers of the rows, and their times if the file has them. */
 static bool element(run_columns *r, const char *group, const char *name, const char *what, size_t column, size_t time)
 {
     char behind[64];
@@ -115,13 +117,13 @@ static bool particles(run_columns *r, const char *name, size_t column, bool velo
     return true;
 }
 
-/* The second names of column i, which begins with column k of the CSV. */
+/* Gives column i the names of H5MD. */
 static bool name_again(run_columns *r, const csv *c, size_t i, size_t time)
 {
     motus_column first = motus_default_column();
     const run_column *own = r->columns + i;
     const size_t d = r->described[i].shape[1];
-    if (own->from >= c->count) return true; /* an error */
+    if (own->from >= c->count) return true; /* it has errors, or is `significant` */
     motus_column_at(c->model->system, c->columns[own->from], &first);
     const bool position = first.kind == MOTUS_COLUMN_POSITION, velocity = first.kind == MOTUS_COLUMN_VELOCITY;
     if ((position || velocity) && first.dimensions == 1 && (d == 2 || d == 3))

@@ -1,6 +1,6 @@
 /* A state in the archive of a run. See run.h.
  *
- * A head of HEAD bytes, filled up by zeros, comes first:
+ * It begins with a head, which zeros fill to HEAD bytes:
  *
  *     motus run
  *     rows 12801
@@ -31,7 +31,7 @@ char *run_state_write(const run_state *s, size_t *length, char **rest)
     return bytes;
 }
 
-/* A number behind a word. */
+/* Reads a word, and a number behind it. */
 static bool word(const char **at, const char *name, uint64_t *value)
 {
     const size_t length = strlen(name);

@@ -73,8 +73,8 @@ typedef struct sweep_rows {
     double *const *values, *const *results, *const *errors;
     const double *stopped;
 } sweep_rows;
-/* Writes the numbers of `count` rows, without the numbers of the trajectories. What a trajectory that stopped does not
- * have is NaN. The columns of `out` are `next_column` apart, and its rows `next_row`. */
+/* Writes the values of `count` rows, except their first column, the number of the trajectory. What a trajectory that
+ * stopped does not have is NaN. The columns of `out` are `next_column` apart, and its rows `next_row`. */
 void sweep_row_numbers(const sweep *, const sweep_rows *, size_t from, size_t count, double *out, size_t next_row,
                        size_t next_column);
 /* Returns whether a number of trajectory i has no significant digit. */

@@ -169,7 +169,7 @@ static motus_status compare_versions(const sweep_file *f, const char *version, m
     const uint64_t blocks = motus_archive_blocks(file);
     sweep_again *again = NULL;
     uint64_t compared = 0;
-    char where[SWEEP_WHERE], why[SWEEP_WHERE + 64];
+    char where[SWEEP_WHERE];
     bool same = true;
     motus_status status = sweep_again_make(&again, f->sweep, err);
     for (uint64_t b = 0; !status && same && b < blocks && compared < BLOCKS; b++) {
@@ -184,16 +184,7 @@ static motus_status compare_versions(const sweep_file *f, const char *version, m
     }
     sweep_again_free(again);
     if (status) return status;
-    if (!same) {
-        snprintf(why, sizeof why, "this motus, %s, computes other bits: %s", motus_version(), where);
-        return archived_by_other(f->path, version, why, err);
-    }
-    if (compared == 0)
-        return archived_by_other(f->path, version, "it has no block that shows whether the bits are the same", err);
-    if (!f->sweep->options->quiet)
-        complain_note("%s was begun by motus %.40s; some of its rows, computed again, have the same bits", f->path,
-                      version);
-    return MOTUS_OK;
+    return archived_compared(f->path, version, compared > 0, same ? NULL : where, f->sweep->options->quiet, err);
 }
 
 static motus_status compare(const sweep_file *f, const description *d, motus_error *err)
