@@ -108,7 +108,7 @@ that "... is the model" cmp model.motus drive.motus
 gives "the state" 0 "$motus" archive run.h5 -o end.state
 gives "... is a restart state" 0 "$motus" run drive.motus --method rk4 --restart end.state --until 500 --json
 that "... that goes on" holds '.time == 500'
-refuses "nothing else" 2 "its rows or its model, that of a run its state" "$motus" archive run.h5 -o x.npy
+refuses "nothing else" 2 "the name must end in .csv, .motus or .state" "$motus" archive run.h5 -o x.npy
 for file in run errors many; do
     gives "--verify all of $file" 0 "$motus" archive $file.h5 --verify all
     that "... all rows" says "rows, computed again, have the same bytes"

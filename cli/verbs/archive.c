@@ -186,7 +186,8 @@ static motus_status extract(const contents *c, stop_progress *progress, motus_er
     const char *name = c->options->output;
     const wanted what = by_name(c);
     if (what == NOTHING) {
-        fail(err, MOTUS_ARGUMENT, "-o %s: the name must end in .csv or .motus%s", name, c->run ? " or .state" : "");
+        fail(err, MOTUS_ARGUMENT, "-o %s: the name must end in .csv%s", name,
+             c->run ? ", .motus or .state" : " or .motus");
         hint(err, "-o rows.csv writes the rows, -o model.motus the model%s", c->run ? ", -o end.state the state" : "");
         return MOTUS_ARGUMENT;
     }
