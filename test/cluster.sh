@@ -122,7 +122,7 @@ for _ in $(seq 200); do [ -s part1.h5 ] && break; sleep 0.1; done
 sleep 1
 that "a task is warned" scancel --batch --signal=USR1 "${job}_1"
 that "... and ends" over "${job}_1" 60
-that "... behind a block, with status 1" eval "grep -q 'with --resume goes on' slurm-${job}_1.out && scontrol show job ${job}_1 | grep -q 'ExitCode=1:0'"
+that "... behind a block, with status 1" eval "grep -q 'with --resume continues' slurm-${job}_1.out && scontrol show job ${job}_1 | grep -q 'ExitCode=1:0'"
 scancel "$job"
 over "$job" 30
 

@@ -58,8 +58,8 @@ share osc.motus --method dop853 --tolerance 1e-6 --until 9
 that "a tolerance, between methods and end" is "$(keys):$(value r)" "v m a r T :1e-06"
 share osc.motus --accuracy 1e-6 --until 9
 that "an accuracy, in its place" is "$(keys):$(value g)" "v m g T :1e-06"
-refuses "an absolute accuracy, in a link" 2 "a link holds a relative accuracy" "$motus" run osc.motus --accuracy "1e-6 absolute" --share
-refuses "an absolute tolerance, in a link" 2 "a link holds a relative tolerance" "$motus" run osc.motus --method dop853 --tolerance "1e-6 absolute" --share
+refuses "an absolute accuracy, in a link" 2 "a link has a relative accuracy" "$motus" run osc.motus --accuracy "1e-6 absolute" --share
+refuses "an absolute tolerance, in a link" 2 "a link has a relative tolerance" "$motus" run osc.motus --method dop853 --tolerance "1e-6 absolute" --share
 gives "compare --share" 0 "$motus" compare osc.motus --methods "rk4, newmark(1/4, 1/2),verlet" --step 0.1 --share
 that "... the methods" is "$(keys):$(value a)" "v m a h :rk4,newmark(1/4, 1/2),verlet"
 "$motus" run - --share <osc.motus >"$out" 2>"$err"

@@ -86,9 +86,9 @@ once() {
 }
 once "a model that is not there" 1 "cannot read" 3 sweep "$place/none.motus" --vary a=1,2 -o "$place/x.h5"
 once "an archive that is there" 2 "exists" 3 "${words[@]}" -o "$place/many.h5"
-once "a table" 2 "together write rows to an archive alone" 3 "${words[@]}" -o "$place/x.csv"
-once "events to a pipe" 2 "events to a file alone" 2 "${hits[@]}" -o "$place/x.h5" --events -
-once "a picture" 2 "draw no picture" 2 sweep models/henon-heiles.motus --vary "y(0)=0:0.3:9" --section "x = 0 rising" --until 9 -o "$place/x.h5" --plot "$place/x.svg"
+once "a table" 2 "together can write rows only to an archive" 3 "${words[@]}" -o "$place/x.csv"
+once "events to a pipe" 2 "events only to a file" 2 "${hits[@]}" -o "$place/x.h5" --events -
+once "a picture" 2 "cannot draw a picture" 2 sweep models/henon-heiles.motus --vary "y(0)=0:0.3:9" --section "x = 0 rising" --until 9 -o "$place/x.h5" --plot "$place/x.svg"
 once "another sweep" 2 "was made by another sweep" 2 "${words[@]}" --until 10 -o "$place/many.h5" --resume
 once "a folder that is not there" 1 "cannot write" 4 "${words[@]}" -o "$place/none/x.h5"
 once "an accuracy that is not reached" 1 "is not reached" 2 sweep "$place/stiff.motus" --vary "k=1,1e5" --accuracy 1e-15 --record final -o "$place/x.h5"
@@ -129,7 +129,7 @@ dies_and_goes_on() {
     [ "$signal" = KILL ] || that "... ends with status 1" [ $status = 1 ]
     # Open MPI's mpirun passes SIGUSR1 on; of SIGTERM it makes an end of the job, and may lose what ranks print.
     if [ "$signal" = USR1 ]; then
-        that "... and says how to go on, once" eval "[ \$(grep -c 'with --resume goes on' '$err') = 1 ]"
+        that "... and says how to go on, once" eval "[ \$(grep -c 'with --resume continues' '$err') = 1 ]"
     fi
     if [ "$again" = 0 ]; then gives "... --resume by motus" 0 "$motus" "${words[@]}" -o "$place/killed.h5" --resume --json
     else gives "... --resume by $again ranks" 0 ranks "$again" "${words[@]}" -o "$place/killed.h5" --resume --json; fi

@@ -227,7 +227,7 @@ for signal in TERM INT; do
     begins stopped.h5
     kill -$signal $!
     wait $! 2>/dev/null
-    that "SIG$signal leaves a state" eval "says 'goes on' '$err'"
+    that "SIG$signal leaves a state" eval "says 'continues' '$err'"
     gives "... motus archive tells of it" 0 "$motus" archive stopped.h5
 done
 
@@ -283,7 +283,7 @@ refuses "an empty file" 2 "is empty" "$motus" archive empty.h5
 begins usr1.h5
 kill -USR1 $!
 wait $! 2>/dev/null
-that "SIGUSR1 leaves a state, too" eval "says 'goes on' '$err'"
+that "SIGUSR1 leaves a state, too" eval "says 'continues' '$err'"
 
 # --- what else goes wrong ----------------------------------------------------------------------------------------------------------------
 mkdir bin

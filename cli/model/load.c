@@ -1,6 +1,6 @@
 /* The model that a command names.
  *
- * Invariant: no more than FILE_MODEL_MAX bytes are read, and a text with a byte 0 never reaches the parser.
+ * Invariant: at most FILE_MODEL_MAX bytes are read, and a text with a byte 0 never reaches the parser.
  */
 #include "cli/model/load.h"
 
@@ -56,7 +56,8 @@ static size_t numbers_of(const motus_system *system, load_naming *name)
     return all;
 }
 
-/* The event of --section, to be freed: it records, and ends the run after the last point that is wanted. */
+/* Returns the event of --section, which records, and ends the run after the last point that is wanted. The caller frees
+ * it. */
 static char *section_event(const options *o)
 {
     const char *const where = o->section ? o->section : "";
@@ -69,7 +70,7 @@ static char *section_event(const options *o)
     return text;
 }
 
-/* The number of characters of a text. */
+/* Returns the number of characters in a text. */
 static int characters(const char *text)
 {
     int count = 0;
@@ -77,7 +78,7 @@ static int characters(const char *text)
     return count;
 }
 
-/* Which option the text of an event came from. What the program has added to that of --section is not shown. */
+/* Names the option that the text of an event came from in an error, and removes what section_event() has added. */
 static void name_option(const options *o, const char *section, motus_error *err)
 {
     if (err && strcmp(err->file, "motus_text_def.define") == 0) snprintf(err->file, sizeof err->file, "--record");
@@ -135,7 +136,7 @@ motus_status load_model(load *m, const options *o, motus_error *err)
     free(section);
     if (!status) status = components_set(m->system, &o->set, err);
     if (status) return status;
-    stop_catch_signals(); /* before this there is nothing to clean up, so signals end the program at once */
+    stop_catch_signals(); /* until now there was nothing to clean up, so signals could end the program at once */
     m->positions = motus_positions(m->system);
     m->velocities = motus_velocities(m->system);
     m->quantities = numbers_of(m->system, motus_quantity_name);

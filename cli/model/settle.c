@@ -11,7 +11,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#define GROWN 2.0 /* powers of ten: more is no motion any more */
+#define GROWN 2.0 /* powers of ten; steps that grow by more do not give the motion */
 
 static bool suggested(motus_said who) { return who == MOTUS_SAID_SUGGESTED; }
 
@@ -38,7 +38,7 @@ static void note(const motus_settings *set, bool sweep)
     fprintf(stderr, "%s\n", line);
 }
 
-/* What nothing else would show: steps that grow where the motion does not. sweep: NULL: of a run. */
+/* Prints a note if the steps grow where the motion does not, which nothing else would show. */
 static void judge(const load *m, const grid *sweep, size_t rows, const double *const *values)
 {
     const motus_settings *set = &m->set;
@@ -48,14 +48,14 @@ static void judge(const load *m, const grid *sweep, size_t rows, const double *c
     motus_step_growth(m->system, sweep ? sweep->count : 0, sweep ? sweep->names : NULL, rows, values, set, &powers,
                       NULL);
     if (powers > GROWN)
-        complain_note(
-            "steps of %s by %s are too long: where %s swings or decays they make it grow, and what is %s is not "
-            "the motion. Give a smaller --step",
-            decimal(set->step, step), set->method, sweep ? "a motion at the ends of what varies" : "the motion",
-            sweep ? "recorded" : "printed");
+        complain_note("steps of %s by %s are too long: they make %s grow that swings or decays, and what is %s is not "
+                      "the motion. "
+                      "Give a smaller --step",
+                      decimal(set->step, step), set->method,
+                      sweep ? "a motion at the ends of what varies" : "the motion", sweep ? "recorded" : "printed");
 }
 
-/* Whether something was suggested, which the definition then has. */
+/* Copies what was suggested to a definition. Returns whether something was. */
 static bool take(const motus_settings *set, double *step, double *until)
 {
     if (suggested(set->step_said)) *step = set->step;

@@ -1,5 +1,5 @@
-/* What a command asks of the motion: the library settles it from the options and the model (motus_run_settings), and
- * the command says what was suggested. */
+/* What a command asks of the motion. The library settles it from the options and the model (motus_run_settings), and
+ * the command prints what was suggested. */
 #ifndef CLI_MODEL_SETTLE_H
 #define CLI_MODEL_SETTLE_H
 
@@ -7,7 +7,7 @@
 #include "cli/model/load.h"
 #include "tell/json.h"
 
-/* Puts into the definition of a run or an ensemble what the options ask of the motion. */
+/* Copies what the options ask of the motion to the definition of a run or an ensemble. */
 #define SETTLE_ASK(def, o)                                                                                \
     ((def)->method = (o)->method, (def)->step = (o)->step, (def)->until = (o)->until,                     \
      (def)->tolerance = (o)->tolerance, (def)->accuracy = (o)->accuracy, (def)->absolute = (o)->absolute, \
@@ -15,11 +15,12 @@
      (def)->most_steps = (o)->most_steps, (def)->switches = options_switches(o),                          \
      (def)->machine = (o)->machine ? (o)->machine : "auto")
 
-/* Settle what a definition asks for: the load has it then, and what is suggested is in the definition too. A note says
- * so, or that steps grow where nothing else would show it. What varies is in the definition of the ensemble already. */
+/* Settle what a definition asks for, and store it in load.set; what is suggested goes to the definition too. Print a
+ * note of what was suggested, or of steps that grow, which nothing else would show. The definition of an ensemble
+ * has what varies. */
 motus_status settle_run(load *, const options *, motus_run_def *, motus_error *);
 motus_status settle_sweep(load *, const options *, const grid *, motus_ensemble_def *, motus_error *);
-/* {"suggested": {"step": 0.05}}: what was suggested. */
+/* Writes what was suggested: "suggested": {"step": 0.05}. */
 void settle_json(json *, const load *);
 
 #endif

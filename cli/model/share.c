@@ -1,7 +1,7 @@
 /* The fragment of a link to the lab.
  *
- * Invariant: the fragment consists of # A-Z a-z 0-9 - . _ ~ ( ) , * % = & alone, and decoding it gives the same bytes,
- * which are UTF-8.
+ * Invariant: the fragment has only the characters # A-Z a-z 0-9 - . _ ~ ( ) , * % = &, and decoding a value gives its
+ * bytes, which are UTF-8.
  */
 #include "cli/model/share.h"
 
@@ -27,7 +27,7 @@ typedef struct items {
     size_t count;
 } items;
 
-/* `out` has room for 3 bytes for each of `s`. */
+/* Encodes `s`; `out` has room for 3 bytes for each of its bytes. Returns the end. */
 static char *encode(char *out, const char *s, const char *plain)
 {
     static const char hex[] = "0123456789ABCDEF";
@@ -56,7 +56,7 @@ char *share_file_url(const char *path)
     return url;
 }
 
-/* The first byte that is not UTF-8, or NULL. */
+/* Returns the first byte that is not UTF-8, or NULL. */
 static const char *foreign(const char *s)
 {
     uint32_t c;
@@ -99,7 +99,7 @@ static motus_status write_items(const items *all, const options *o, char **fragm
     return MOTUS_OK;
 }
 
-/* The methods asked for, the main one first; "": none. NULL: out of memory. */
+/* Returns the methods of the options, with commas between them, the main one first. NULL: out of memory. */
 static char *methods_of(const options *o)
 {
     const char *const main[] = {o->method ? o->method : ""};
@@ -122,8 +122,8 @@ static char *methods_of(const options *o)
     return out;
 }
 
-/* A number of the command line as the language reads it: as it was typed, else its digits (for .5 and 1.). */
 enum { NUMBER_ROOM = 256 };
+/* Writes a number of the command line for the language: as it was typed, or, for .5 and 1., its digits. */
 static void number_of(double value, const char *typed, char out[NUMBER_ROOM])
 {
     double read;
@@ -134,7 +134,7 @@ static void number_of(double value, const char *typed, char out[NUMBER_ROOM])
     snprintf(out, NUMBER_ROOM, "%s", foreign ? decimal(value, digits) : typed);
 }
 
-/* Items of all rows that a link has, in their order; `numbers` is room for one each. */
+/* Gathers the items of a link in their order. `numbers` is memory for their texts. */
 static void gather(items *all, const load *m, const options *o, const char *methods, char numbers[][NUMBER_ROOM])
 {
     all->list[all->count++] = (item){'v', "1"};
@@ -155,11 +155,11 @@ static void gather(items *all, const load *m, const options *o, const char *meth
 
 motus_status share_fragment(const load *m, const options *o, char **fragment, motus_error *err)
 {
-    enum { OTHERS = 3 }; /* v m a */
+    enum { OTHERS = 3 }; /* the items v, m, a */
     char numbers[OPTION_COUNT][NUMBER_ROOM];
     if (o->absolute) {
         const bool accuracy = !isnan(o->accuracy);
-        fail(err, MOTUS_ARGUMENT, "a link holds a relative %s, and this one is absolute",
+        fail(err, MOTUS_ARGUMENT, "a link has a relative %s, but this one is absolute",
              accuracy ? "accuracy" : "tolerance");
         hint(err, "write `%s … absolute` into the model, or give --%s as a number alone",
              accuracy ? "accuracy" : "tolerance", accuracy ? "accuracy" : "tolerance");
@@ -170,7 +170,7 @@ motus_status share_fragment(const load *m, const options *o, char **fragment, mo
         if (components_are(o->set.items[k])) {
             free(methods);
             return complain(err, MOTUS_ARGUMENT, "set all components: \"r(0) = (1, 0)\"",
-                            "--set %s: a link holds vectors as a whole", o->set.items[k]);
+                            "--set %s: a link has only whole vectors", o->set.items[k]);
         }
     items all = {malloc((o->set.count + OTHERS + OPTION_COUNT) * sizeof *all.list), 0};
     motus_status status = methods && all.list ? MOTUS_OK : complain_memory(err);
@@ -181,7 +181,7 @@ motus_status share_fragment(const load *m, const options *o, char **fragment, mo
     return status;
 }
 
-/* Checks that the methods exist, as compare would; *fits: one that admits the model, for check_run(). */
+/* Checks that the methods exist, and finds one that admits the model, for check_run(). */
 static motus_status check_methods(const load *m, const options *o, const char **fits, motus_error *err)
 {
     const motus_method *found;

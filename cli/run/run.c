@@ -1,7 +1,7 @@
 /* motus run: one integration.
  *
  * Invariant: files get their names after the last call that can fail, so that a run leaves all of them or none. The
- * motion does not depend on what is observed.
+ * motion does not depend on what is recorded of it.
  */
 #include "cli/files/file.h"
 #include "cli/files/stop.h"
@@ -28,15 +28,15 @@ typedef struct job {
     load model;
     motus_run_def def;
     motus_run *run;
-    motus_estimate estimate; /* of its errors */
-    motus_error singular;    /* its status: what motus_run_singular says of the run */
-    motus_error missed;      /* likewise: it has not reached its accuracy */
+    motus_estimate estimate; /* of the run's errors */
+    motus_error singular;    /* status not 0: the run has passed something that its steps do not resolve */
+    motus_error missed;      /* status not 0: the run has not reached its accuracy */
     stop_progress progress;
     double start, until;
-    double began; /* the search for the run's method and steps; NaN: they were given */
+    double began; /* when the search for the run's method and steps began; NaN: there was none */
     csv csv;
     run_archive *archive; /* NULL: the rows are not an archive */
-    const char *from;     /* the archive with which the run goes on; NULL: it begins */
+    const char *from;     /* the archive that the run continues; NULL: the run begins */
     walk_observer rows;
     deviation deviation;
     figure figure;
@@ -57,12 +57,12 @@ static motus_status check_archive(const options *o, motus_error *err)
         return complain(err, MOTUS_ARGUMENT, "write it: -o run.h5", "%s is for a run into an archive", only);
     if (o->force && o->resume) return fail(err, MOTUS_ARGUMENT, "--force and --resume exclude each other");
     if (o->restart && is_archive(o))
-        return complain(err, MOTUS_ARGUMENT, "the archive keeps its own states: motus run FILE.h5 --until T goes on",
+        return complain(err, MOTUS_ARGUMENT, "the archive has its own states: motus run FILE.h5 --until T continues it",
                         "--restart: a run into an archive begins at its start");
     return MOTUS_OK;
 }
 
-/* `from`: the archive that is read; NULL: none is. */
+/* Checks the names of files. `from` is the archive that the run continues, or NULL. */
 static motus_status check_names(const options *o, const char *from, motus_error *err)
 {
     const char *in[] = {from      ? from
@@ -102,7 +102,8 @@ static motus_status restart(job *j, motus_error *err)
     return status;
 }
 
-/* The library saves the state before a shorter last step, so that a restarted run has the same grid of steps. */
+/* Writes the restart state: that before a shorter last step, so that the steps of a restarted run continue the
+ * others. */
 static motus_status save(job *j, motus_error *err)
 {
     const char *text;
@@ -111,7 +112,7 @@ static motus_status save(job *j, motus_error *err)
     return status ? status : file_write(&j->files[STATE], text, length, err);
 }
 
-/* Nothing is computed that nobody sees; a restart state has the errors up to it. */
+/* Returns which errors are computed: none if no output has them. A restart state has the errors up to it. */
 static motus_bars bars_wanted(const options *o)
 {
     const bool seen = !o->quiet || o->json || o->errors || o->plot || o->save_state || o->events || is_archive(o);
@@ -185,8 +186,8 @@ static motus_status go(job *j, motus_error *err)
         figure_observers(&j->figure, observers + count);
         count += FIGURE_OBSERVERS;
     }
-    const motus_status status =
-        motus_run_done(j->run) ? deviation_here(&j->deviation, j->run, err) : MOTUS_OK; /* the walk observes nothing */
+    const motus_status status = motus_run_done(j->run) ? deviation_here(&j->deviation, j->run, err)
+                                                       : MOTUS_OK; /* walk() would not observe it */
     return status ? status : walk(j->run, j->start, j->until, observers, count, &keeper, err);
 }
 
@@ -225,7 +226,7 @@ static motus_status finish(job *j, double seconds, motus_error *err)
     return status;
 }
 
-/* Of the run as it was: with the method and the steps that were found for its accuracy. */
+/* Looks for poles that the run has passed, with the method and the steps that were found for its accuracy. */
 static motus_status look_for_poles(job *j)
 {
     motus_run_def def = j->def;
@@ -246,7 +247,7 @@ static motus_status emit(const options *o, motus_error *err)
     load model;
     motus_status status = load_model(&model, o, err);
     motus_run_def def = run_make_asked(o);
-    def.accuracy = NAN; /* it would be searched for */
+    def.accuracy = NAN; /* else trials would search for its tolerance */
     const char *text = status ? NULL : motus_run_text(model.system, &def, err);
     if (!status && !text) status = err->status;
     if (text) {
@@ -272,7 +273,7 @@ static motus_status run(const options *o, const char *from, motus_error *err)
         status = go(&j, err);
         whole = !status;
         if (!status && j.def.error != MOTUS_BARS_NONE) status = motus_run_estimate(j.run, &j.estimate, err);
-        double seconds = fmax(0, stop_clock() - began - j.estimate.seconds); /* without its companions */
+        double seconds = fmax(0, stop_clock() - began - j.estimate.seconds); /* without the time of companions */
         stop_progress_end(&j.progress);
         if (!status && look_for_poles(&j) == MOTUS_MEMORY) *err = j.singular, status = MOTUS_MEMORY;
         if (!status) j.missed.status = motus_run_step(j.run, 0, &j.missed);
@@ -292,7 +293,7 @@ static motus_status run(const options *o, const char *from, motus_error *err)
     return status;
 }
 
-/* Goes on with the run of an archive. */
+/* Continues the run of an archive. */
 static motus_status go_on(const options *o, motus_error *err)
 {
     run_command c;

@@ -39,7 +39,7 @@ void run_command_free(run_command *);
 
 /* Returns the definition of a run with the settings of the options. */
 motus_run_def run_make_asked(const options *);
-/* Settles step and end of the model, which is loaded, and creates the run; *def is its definition. Prints the notes of
+/* Settles what the options and the model ask for, and creates the run; *def is its definition. Prints the notes of
  * the run unless the command is quiet. */
 motus_status run_make(const options *, load *, stop_progress *, motus_bars, motus_run_def *def, motus_run **,
                       motus_error *);

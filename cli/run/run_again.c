@@ -1,4 +1,4 @@
-/* Computes the first rows of the archive of a run once more. */
+/* Computes the first rows of the archive of a run again, and compares their bytes. */
 #include "cli/run/run.h"
 
 #include "base/decimal.h"
@@ -7,13 +7,13 @@
 #include <inttypes.h>
 #include <string.h>
 
-#define ENOUGH MOTUS_CANCELLED /* how an observer ends the walk */
+#define ENOUGH MOTUS_CANCELLED /* an observer returns it to end the walk */
 
 typedef struct comparison {
     motus_archive *file;
     const csv *plan;
     run_columns columns;
-    double **ours, **its; /* a row that is computed; a block of the file */
+    double **ours, **its; /* rooms for a computed row, and for a block of the file */
     size_t block;
     uint64_t rows, wanted;
     bool same;
@@ -29,7 +29,7 @@ static void tell(comparison *c, size_t k, size_t i, double its, double ours)
              c->columns.columns[k].name, place, decimal(its, a), decimal(ours, b));
 }
 
-/* The block of the next row. */
+/* Reads the block of the next row. */
 static motus_status read_block(comparison *c, motus_error *err)
 {
     const uint64_t left = motus_archive_rows(c->file) - c->rows;

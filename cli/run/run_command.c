@@ -1,5 +1,4 @@
-/* The command that makes the rows of a run, the run that an archive's command makes, and the run that a command asks
- * for. */
+/* The command that makes the rows of a run, the command in an archive, and the run that a command describes. */
 #include "cli/run/run.h"
 
 #include "cli/files/command.h"
@@ -21,7 +20,7 @@ motus_status run_command_text(const options *asked, const motus_run *run, double
     o.method = now.method;
     o.step = now.step;
     o.tolerance = now.tolerance;
-    o.accuracy = NAN; /* the tolerance that it found stands for it */
+    o.accuracy = NAN; /* the tolerance that was found for it is enough */
     o.absolute = now.absolute;
     o.until = until;
     if (!o.error) o.error = "cheap";
@@ -39,11 +38,11 @@ const char *run_command_fingerprint(const char *version, const char *model, cons
     return out;
 }
 
-/* ---- a run that goes on ---- */
+/* ---- a run that continues ---- */
 
 static motus_status no_run(const char *path, motus_error *err)
 {
-    return complain(err, MOTUS_STATE, "motus run goes on with a file that `motus run MODEL -o FILE.h5` has written",
+    return complain(err, MOTUS_STATE, "motus run continues a file that `motus run MODEL -o FILE.h5` has written",
                     "%s is not the archive of a run", path);
 }
 
@@ -58,7 +57,7 @@ motus_status run_command_of(run_command *c, motus_archive *a, const options *ask
     const char **words = c->argv.items;
     if (c->argv.count < 2 || strcmp(words[0], "motus") != 0 || strcmp(words[1], "run") != 0)
         return no_run(asked->operand, err);
-    words[c->argv.count++] = "-o"; /* there is room for two more; some options need it */
+    words[c->argv.count++] = "-o"; /* some options need it; words_split() left room for two more */
     words[c->argv.count++] = "archive.h5";
     status = options_read(&c->options, VERB_RUN, (int)c->argv.count, (char **)words, 2, err);
     if (!status && (c->options.help || !c->options.operand)) return no_run(asked->operand, err);
@@ -70,8 +69,8 @@ motus_status run_command_of(run_command *c, motus_archive *a, const options *ask
     return status;
 }
 
-/* The archive says all settings of the motion but its end, and goes on; what is not the motion is that of the command
- * now. */
+/* Takes the end, and the settings that do not change the motion, from the present command. The archive decides the
+ * others. */
 static motus_status take_over(run_command *c, const options *o, motus_error *err)
 {
     options *own = &c->options;
@@ -100,7 +99,7 @@ motus_status run_command_read(run_command *c, const options *o, motus_error *err
     if (!status) status = take_over(c, o, err);
     if (status || o->output || !(o->force || o->resume)) return status;
     return complain(err, MOTUS_ARGUMENT, "leave it out, or name another file: -o other.h5",
-                    "%s: the run goes on in %s itself", o->force ? "--force" : "--resume", o->operand);
+                    "%s: the run continues in %s itself", o->force ? "--force" : "--resume", o->operand);
 }
 
 void run_command_free(run_command *c)
@@ -112,7 +111,7 @@ void run_command_free(run_command *c)
     *c = (run_command){0};
 }
 
-/* ---- the run that a command asks for ---- */
+/* ---- the run that a command describes ---- */
 
 motus_run_def run_make_asked(const options *o)
 {

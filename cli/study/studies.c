@@ -19,7 +19,7 @@ motus_status studies_begin(studies *s, const char *what, bool steps, const optio
     if (!status && o->plot && o->operand && file_same(o->plot, o->operand))
         status = fail(err, MOTUS_ARGUMENT, "%s is read and would be overwritten", o->operand);
     if (!status) status = load_model(&s->model, o, err);
-    /* By a method that takes all forces: the model's own need not be among those that are studied. */
+    /* these methods admit all forces; the model's own method need not be among those that are studied */
     motus_run_def run = motus_default_run();
     run.method = steps ? "explicit-euler" : "dop853";
     if (steps) run.step = o->step;

@@ -14,8 +14,8 @@ typedef struct studies {
     stop_progress progress;
 } studies;
 
-/* Loads the model and fills the definition; steps: the study needs a step. Progress is shown under the name `what`
- * until stop_progress_end(). */
+/* Loads the model and fills the definition; `steps` says whether the study needs a step. Progress is shown under the
+ * name `what` until stop_progress_end(). */
 motus_status studies_begin(studies *, const char *what, bool steps, const options *, motus_study_def *, motus_error *);
 
 /* Prints the first line of the tables: the model and the reference. */

@@ -1,7 +1,7 @@
 /* motus sweep: one model, many trajectories.
  *
- * Invariant: one batch of trajectories is in memory, however many there are; its rows are written before the next
- * begins; no file is touched before the request is checked.
+ * Invariant: only one batch of trajectories is in memory, however many there are; its rows are written before the next
+ * batch begins. No file is touched before the request has been checked.
  */
 #include "cli/sweep/sweep.h"
 
@@ -35,7 +35,7 @@ static motus_status read_every(sweep *s, motus_error *err)
     return MOTUS_OK;
 }
 
-/* def: what the sweep asks of its trajectories, and what varies. */
+/* Creates the ensemble. `def` has what the sweep asks of its trajectories, and what varies. */
 static motus_status create(sweep *s, motus_ensemble_def *def, stop_progress *progress, motus_error *err)
 {
     const options *o = s->options;
@@ -46,7 +46,7 @@ static motus_status create(sweep *s, motus_ensemble_def *def, stop_progress *pro
     def->lanes = (int)o->lanes;
     def->fast = o->fast;
     def->error = s->errors ? options_bars(o) : MOTUS_BARS_NONE;
-    def->expected = s->grid.total / s->shard.count + 1; /* the blocks of a shard are not known yet */
+    def->expected = s->grid.total / s->shard.count + 1; /* about: the size of blocks is not known yet */
     def->events = o->events || o->plot;
     def->event_columns = s->event_columns;
     def->event_column_count = s->event_columns_count + s->event_columns_more;
@@ -56,7 +56,7 @@ static motus_status create(sweep *s, motus_ensemble_def *def, stop_progress *pro
     return motus_ensemble_create(s->model.system, def, &s->ensemble, err);
 }
 
-/* All pieces of a sweep decide by the same trajectories. */
+/* Lets the ensemble choose by the trajectories that are furthest apart, so that all shards choose alike. */
 static motus_status lead_pilots(const sweep *s, motus_error *err)
 {
     double **values;
@@ -67,7 +67,7 @@ static motus_status lead_pilots(const sweep *s, motus_error *err)
     return status;
 }
 
-/* Why no faster machine runs the sweep, as soon as that is known, once. */
+/* Prints once why no faster machine runs the sweep, when that is known. */
 static void note_machine(sweep *s)
 {
     const motus_ensemble_statistics now = motus_ensemble_now(s->ensemble);
@@ -77,7 +77,7 @@ static void note_machine(sweep *s)
                   now.note);
 }
 
-/* All ends that vary are right, before a file is touched. */
+/* Checks all ends that vary, before a file is touched. */
 static motus_status check_ends(const sweep *s, motus_error *err)
 {
     enum { AT_ONCE = 4096 };
@@ -106,22 +106,22 @@ static motus_status check_options(const options *o, motus_error *err)
     return status ? status : sweep_events_check(o, err);
 }
 
-/* What several processes can write together. */
+/* Checks that several processes can write the output together. */
 static motus_status check_team(const options *o, motus_error *err)
 {
     if (team_size(o->team) == 1) return MOTUS_OK;
     if (!o->output || !target_archive(o->output))
         return complain(err, MOTUS_ARGUMENT, "add -o FILE.h5",
-                        "several processes together write rows to an archive alone");
+                        "several processes together can write rows only to an archive");
     if (o->plot)
         return complain(err, MOTUS_ARGUMENT, "write the points, --events points.csv, and draw them from there",
-                        "several processes together draw no picture");
+                        "several processes together cannot draw a picture");
     if (!o->events || sweep_events_in_segments(o)) return MOTUS_OK;
     return complain(err, MOTUS_ARGUMENT, "--events events.csv",
-                    "several processes together write events to a file alone, not to a pipe");
+                    "several processes together can write events only to a file");
 }
 
-/* The ensemble and the head of the file. */
+/* Makes the ensemble and the head of the file. */
 static motus_status make(sweep *s, motus_ensemble_def *def, stop_progress *progress, motus_error *err)
 {
     const options *o = s->options;
@@ -190,17 +190,18 @@ void sweep_free(sweep *s)
     *s = (sweep){0};
 }
 
-/* Of so many rows those up to the end of the last block that they complete. */
+/* Returns how many of `count` rows go up to the end of the last block that they complete; all, if they complete
+ * none. */
 static size_t up_to_block(uint64_t row, size_t count, uint64_t block)
 {
     const size_t behind = (size_t)((row + count) % block);
     return behind < count ? count - behind : count;
 }
 
-/* A batch system has said that it is about to end the program. */
+/* Makes the error for a warning by the batch system that it will end the program. */
 static motus_status warned(motus_error *err)
 {
-    return complain(err, MOTUS_CANCELLED, "the same command with --resume goes on", "stopped by a signal");
+    return complain(err, MOTUS_CANCELLED, "the same command with --resume continues", "stopped by a signal");
 }
 
 static motus_status go(sweep *s, sweep_file *f, sweep_events *events, sweep_section *section, stop_progress *p,
@@ -215,7 +216,7 @@ static motus_status go(sweep *s, sweep_file *f, sweep_events *events, sweep_sect
     for (uint64_t left; !status && (left = sweep_file_left(f)) > 0;) {
         size_t count = left < b.count ? (size_t)left : b.count;
         if (f->archive) count = up_to_block(f->rows, count, s->shard.block);
-        if (f->rows % s->shard.block == 0 && sweep_archive_given_up(f)) break; /* with no block in hand */
+        if (f->rows % s->shard.block == 0 && sweep_archive_given_up(f)) break; /* only between blocks */
         double began = stop_clock();
         p->from = sweep_file_done(f) / total;
         p->span = (double)count / total;
@@ -238,18 +239,18 @@ static motus_status go(sweep *s, sweep_file *f, sweep_events *events, sweep_sect
     return status;
 }
 
-/* After a failure of any: how far the file is. Waits for all. */
+/* Prints how many rows the file has, after a failure of any process. Waits for all. */
 static void note_unfinished(const sweep *s, const sweep_file *f, motus_status status)
 {
     const team *t = s->options->team;
     const uint64_t have = sweep_file_have(f);
-    const bool refused = team_any(t, status == MOTUS_ACCURACY); /* the same command would be refused again */
+    const bool refused = team_any(t, status == MOTUS_ACCURACY); /* the command would fail again */
     if (!refused && team_first(t) && f->regular && have < s->rows)
         complain_note("%llu of %llu trajectories are in %s; the same command with --resume continues",
                       (unsigned long long)have, (unsigned long long)s->rows, f->path);
 }
 
-/* What the others have counted, too. */
+/* Adds up what all processes have counted. */
 static void add_up(const team *t, sweep_file *f)
 {
     if (team_size(t) == 1) return;
@@ -282,7 +283,7 @@ static motus_status finish(const sweep *s, sweep_file *f, sweep_events *events, 
     status = file_flush_output(err);
     if (!status && f->stopped > 0 && !o->quiet)
         complain_note("%llu of %llu trajectories did not reach their end: their column `stopped` has the time, and "
-                      "`stopped_by` the cause where it is known",
+                      "`stopped_by` the cause if it is known",
                       (unsigned long long)f->stopped, (unsigned long long)s->rows);
     if (!status && f->lost > 0 && !o->quiet)
         complain_note("no digit is known to be significant at the end of %llu of %llu trajectories: their column "
@@ -291,7 +292,7 @@ static motus_status finish(const sweep *s, sweep_file *f, sweep_events *events, 
     return status;
 }
 
-/* Puts the number of the shard into the names of its files, which `names` keeps. */
+/* Puts the number of the shard into the names of its files. The caller frees `names`. */
 static motus_status name_files(const sweep *s, options *o, char *names[2], motus_error *err)
 {
     const char **const given[] = {&o->output, &o->events};
@@ -310,7 +311,7 @@ static motus_status open_both(sweep_file *f, const sweep *s, motus_error *err)
     return status ? status : sweep_events_open(f->events, f->rows, err);
 }
 
-/* The first process makes the files, or finds them, before the others open them. */
+/* Opens the files: first in the first process, which makes or finds them, and then in the others. */
 static motus_status open_files(sweep_file *f, const sweep *s, motus_error *err)
 {
     const team *t = s->options->team;
@@ -325,7 +326,7 @@ static motus_status open_files(sweep_file *f, const sweep *s, motus_error *err)
 
 motus_status sweep_verb(const options *o, motus_error *err)
 {
-    options own = *o; /* with the names of the files of this shard */
+    options own = *o; /* with the names of this shard's files */
     sweep s = {.options = &own};
     sweep_file f = {.descriptor = -1};
     sweep_events events = {.descriptor = -1};
