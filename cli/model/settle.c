@@ -48,11 +48,11 @@ static void judge(const load *m, const grid *sweep, size_t rows, const double *c
     motus_step_growth(m->system, sweep ? sweep->count : 0, sweep ? sweep->names : NULL, rows, values, set, &powers,
                       NULL);
     if (powers > GROWN)
-        complain_note("steps of %s by %s are too long: they make %s grow that swings or decays, and what is %s is not "
-                      "the motion. "
-                      "Give a smaller --step",
-                      decimal(set->step, step), set->method,
-                      sweep ? "a motion at the ends of what varies" : "the motion", sweep ? "recorded" : "printed");
+        complain_note(
+            "steps of %s by %s are too long: where %s swings or decays, they make it grow, and what is %s is not "
+            "the motion. Give a smaller --step",
+            decimal(set->step, step), set->method, sweep ? "a motion at the ends of what varies" : "the motion",
+            sweep ? "recorded" : "printed");
 }
 
 /* Copies what was suggested to a definition. Returns whether something was. */
