@@ -414,7 +414,7 @@ static motus_status put_zeros(motus_archive *a, uint64_t place, uint64_t count, 
     return status;
 }
 
-/* Writes a state into a slot. last: sets the bytes behind the state to 0. */
+/* Writes a state into a slot. last: sets the bytes after the state to 0. */
 static motus_status write_slot(motus_archive *a, uint64_t turn, const void *bytes, size_t length, bool last,
                                motus_error *err)
 {

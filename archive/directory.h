@@ -16,13 +16,13 @@
  *     motus sweep model.motus --vary k=1:2:9
  *     end
  *
- * The first number is the size of the directory, zeros behind its text included, the second a hash of all that follows
+ * The first number is the size of the directory, zeros after its text included, the second a hash of all that follows
  * its line. Places are counted in bytes from the beginning of the file and have a fixed width, so that the length of
- * the text is known before they are. Where a row has several numbers of a column, their shape stands behind its kind.
+ * the text is known before they are. Where a row has several numbers of a column, their shape stands after its kind.
  * `slots` is there if states are: where the first slot begins, and the bytes of each. Behind `note` stand the length of
  * the text and its name; the text follows, and a newline.
  *
- * Where the rows are compressed the first line says `motus archive 2`, and behind `done` follows
+ * Where the rows are compressed the first line says `motus archive 2`, and after `done` follows
  *
  *     packed 00000000000000020480
  *

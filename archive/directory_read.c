@@ -46,7 +46,7 @@ static bool begins(char **text, const char *word)
     return true;
 }
 
-/* Reads decimal digits and, where more follows, the space behind them. */
+/* Reads decimal digits and, where more follows, the space after them. */
 static bool number(char **text, uint64_t *value)
 {
     char *at = *text;
@@ -61,13 +61,13 @@ static bool number(char **text, uint64_t *value)
     return true;
 }
 
-/* Tells whether `count` numbers of `width` bytes from `place` on lie in the file, behind the directory. */
+/* Tells whether `count` numbers of `width` bytes from `place` on lie in the file, after the directory. */
 static bool inside(const reader *r, uint64_t place, uint64_t count, uint64_t width)
 {
     return count == 0 || (place >= r->d->size && place <= r->file_size && count <= (r->file_size - place) / width);
 }
 
-/* Reads "[3]" or "[100x3]" behind the kind of a column, and the space behind it. */
+/* Reads "[3]" or "[100x3]" after the kind of a column, and the space after it. */
 static bool shape(char **text, size_t out[2])
 {
     uint64_t n[2] = {0, 0};

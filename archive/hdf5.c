@@ -163,7 +163,7 @@ static char *link_name(const char *name)
 }
 
 /* Makes a data set of `count` rows at their place, which HDF5 does not fill. shape: of the numbers in a row; NULL: one.
- * chunk above 0: so many rows at a time will be compressed, and have no place yet. The caller closes the set. */
+ * chunk above 0: the rows will be compressed, `chunk` at a time, and have no place yet. The caller closes the set. */
 static hid_t make_set(hid_t group, const char *name, hid_t type, uint64_t count, const size_t *shape,
                       const void *missing, uint64_t chunk, uint64_t *place)
 {

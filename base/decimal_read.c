@@ -86,7 +86,7 @@ static double scaled(number *n, int exponent, double *other, double *rest)
     if (exponent >= 0) {
         by_fives(n, exponent, times);
     } else {
-        /* Zeros behind the number let the quotient have more bits than two doubles: log2 of 5 is below 7/3. */
+        /* Zeros after the number let the quotient have more bits than two doubles: log2 of 5 is below 7/3. */
         words = -exponent * 7 / 3 / 32 + 6 - n->count;
         words = words > 0 ? words : 0;
         memmove(n->word + words, n->word, (size_t)n->count * sizeof *n->word);

@@ -1,7 +1,7 @@
 /* Writes decimal numbers, fast enough for a hundred million of them.
  *
  * Invariant: decimal_write() writes the characters of decimal_write_plain(). It scales the number by a power of ten to
- * 17 digits before the point, as a fixed-point number with 64 bits behind it that is too small by less than 2 units of
+ * 17 digits before the point, as a fixed-point number with 64 bits after it that is too small by less than 2 units of
  * the last bit. Where this error could change a digit or the number of digits, decimal_write_plain() writes it.
  *
  * Why there is a fast way beside the plain one: with the plain one alone, about 190 lines would go, and writing a
@@ -129,7 +129,7 @@ static scaled power_of_ten(int p)
     return (scaled){bits, exponent};
 }
 
-/* |value| × 10^p and half the distance to its neighbours, as fixed-point numbers with 64 bits behind the point, each
+/* |value| × 10^p and half the distance to its neighbours, as fixed-point numbers with 64 bits after the point, each
  * too small by less than 2 last bits. */
 typedef struct fixed {
     wide value, half;

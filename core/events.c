@@ -14,7 +14,7 @@ static double *place(instant *i, const events *e, double *at)
     return i->bound + f;
 }
 
-/* A block of memory in which arrays lie one behind the other; block NULL: their bytes are only counted. */
+/* A block of memory in which arrays follow one another; block NULL: their bytes are only counted. */
 typedef struct layout {
     char *block;
     size_t at;
@@ -54,7 +54,7 @@ static size_t arrange(events *e, char *block)
     e->count = next(&l, n, sizeof *e->count);
     e->ticks = next(&l, n, sizeof *e->ticks);
     e->rule_of = next(&l, f, sizeof *e->rule_of);
-    e->side = next(&l, 4 * f, 1); /* one behind the other, so that they are kept and restored together */
+    e->side = next(&l, 4 * f, 1); /* one after the other, so that they are kept and restored together */
     e->was = next(&l, 4 * f, 1);
     e->sign = next(&l, f, 1);
     e->look = next(&l, f, 1);
@@ -298,7 +298,7 @@ static bool comes_back(events *e, const candidate *c)
 
 static bool ask(events *e)
 {
-    enum { LOOK = 16 }; /* one in so many chances is taken to ask */
+    enum { LOOK = 16 }; /* it asks at one chance in LOOK */
     if (e->asks && ++e->asked % LOOK == 0) e->cancelled = e->asks(e->asks_ctx) != 0;
     return e->cancelled;
 }
@@ -457,7 +457,7 @@ static motus_status piece(events *e, stepper *s, double until, int64_t most, boo
     return status;
 }
 
-/* Returns the piece, of those that led to actions, in which t lies; NULL: t lies behind them, in the stepper's own
+/* Returns the piece, of those that led to actions, in which t lies; NULL: t lies after them, in the stepper's own
  * step. */
 static const double *past_at(const events *e, double t)
 {

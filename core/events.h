@@ -64,31 +64,31 @@ void events_forget(events *);
  * ended the run or events accumulated. */
 motus_status events_go(events *, stepper *, double until, int64_t most, stepper_stop *why, motus_error *);
 
-/* Tell whether bounds may prove of the next steps that nothing happens in them: where the stepper itself watches them
- * (stepper_can_watch), or where another loop takes them, with fixed steps too (stepper_bounded). */
+/* Tell whether bounds may prove that nothing happens in the next steps: in steps that the stepper itself watches
+ * (stepper_can_watch), or that another loop takes, which may be fixed steps (stepper_bounded). */
 bool events_watchable(const events *, const stepper *);
 bool events_bounded(const events *, const stepper *);
 /* Returns the time of the next tick of any clock; infinite where there is none. */
 double events_next_time(const events *);
-/* Tells whether nothing has happened in a step of which cheaper bounds leave that open. */
+/* Tells whether nothing has happened in a step for which cheaper bounds did not prove it. */
 bool events_idle(events *, const stepper_shown *);
-/* Takes over that another loop has led the stepper so many steps on, in which nothing happened. largest: bounds on the
+/* Notes that another loop has led the stepper on by `steps` steps, in which nothing happened. largest: bounds on the
  * sizes of x, then v, at the starts of these steps. */
 motus_status events_led(events *, stepper *, int64_t steps, const double *largest, motus_error *);
 
-/* Lets `asks` cancel a step with many events, among which it is called. Where it returns other than 0, the step ends at
- * the latest event, and the call returns MOTUS_CANCELLED without a message. NULL: nobody cancels. */
+/* Lets `asks`, which is called now and then between the events of a step, cancel the step. If it returns nonzero, the
+ * step ends at the latest event, and the call returns MOTUS_CANCELLED without a message. NULL: nobody cancels. */
 void events_listen(events *, int (*asks)(const void *ctx), const void *ctx);
 /* Tells whether a fixed step was cancelled on its way; it cannot be saved before another step has led to its end. */
 bool events_partway(const events *);
 
 /* Moves the numbers of the state, x and then v, by about their rounding, after every action, so that a companion has
  * other roundings at events than the run. salt: differs from event to event. switched: no action has computed these
- * numbers; a switch of the force has let the motion go on. */
+ * numbers: a switch of the force changed its side, and the motion goes on. */
 typedef void (*events_jogger)(double *y, size_t count, uint32_t salt, bool switched);
 void events_jog(events *, events_jogger);
-/* Is shown every step that is not watched, with its mark, and the time up to which the step counts, which is that of
- * an action or the step's end. True: the advance ends here, with STOP_HALT. */
+/* A witness is shown every step that is not watched, with its mark. until: the time up to which the step counts: that
+ * of an action, or the step's end. True: the advance ends here, with STOP_HALT. */
 typedef bool (*events_witness)(void *ctx, stepper *, double until);
 void events_witnessed(events *, events_witness, void *ctx);
 /* Begins the grid of fixed steps where the stepper stands, because it has begun a leg there (stepper_turn). */
@@ -107,17 +107,18 @@ double events_tail(const events *);
 /* Tells how far the state at the limit of events, x and then v, may be from the true limit. */
 const double *events_limit_off(const events *);
 /* Counts the steps since events_begin in which an event may have been missed because it is narrow beside the step: no
- * bound has confirmed what the points of dense output tell. Tells a rule, and the start, of the first such step. */
+ * bound has confirmed what dense output shows at its points. Tells the start of the first such step, and a rule of
+ * which that is true. */
 int64_t events_unseen(const events *, size_t *rule, double *t);
 int64_t events_steps(const events *); /* since events_begin */
 size_t events_rule_of(const events *, size_t function);
 double events_latest(const events *);        /* time of the latest action; NaN: there was none */
 bool events_ticks(const events *, double t); /* whether t is a tick of a clock */
-/* Tells whether a function that is near 0 at the run's state leaves no event open: it has been 0 from the start on, has
- * come to rest at 0, or is 0 in the instant in which an event has ended the run. */
+/* Tells whether a function that is near 0 at the run's state leaves no doubt about its events: it has been 0 from the
+ * start on, has come to rest at 0, or is 0 in the instant in which an event has ended the run. */
 bool events_settled(const events *, size_t function);
-/* Takes over how far the numbers of the state, x and then v, may be off from now on: extrema that this may lead beyond
- * 0 are kept. Forgets the extrema before. False: no memory. */
+/* Notes how far the numbers of the state, x and then v, may be off from now on. From then on extrema are kept whose
+ * sign this may hide; earlier ones are forgotten. False: no memory. */
 bool events_near(events *, const double *off);
 /* Returns the error of number k that events_near got last; 0: it got none. */
 double events_off(const events *, size_t k);
@@ -127,7 +128,7 @@ size_t events_extrema(const events *);
 typedef enum events_near_kind { EVENTS_NEAR_END, EVENTS_NEAR_EXTREMUM, EVENTS_NEAR_REST } events_near_kind;
 /* Returns the function of extremum k, and tells its kind, time and state. */
 size_t events_extremum(const events *, size_t k, events_near_kind *, double *t, const double **x, const double **v);
-/* Tells from which time on extrema of a rule's functions had no room; NaN: all have been kept. */
+/* Tells the time from which on there was no room for the extrema of a rule's functions; NaN: all have been kept. */
 double events_unkept(const events *, size_t rule);
 int64_t events_acted(const events *); /* how often a rule has assigned */
 /* Tells how often a rule has assigned before t, a time within the last step. */

@@ -19,7 +19,7 @@ typedef struct part {
 
 static double time_at(const events *e, double tau) { return tau >= 1 ? e->span : tau * e->span; }
 
-/* Makes room for the values at degree + 1 points, and behind them for the arguments. False: no memory. */
+/* Makes room for the values at degree + 1 points, and after them for the arguments. False: no memory. */
 static bool room_for(events *e, int degree)
 {
     if (degree + 1 <= e->samples_room) return true;

@@ -1,9 +1,9 @@
 /* Actions that follow one another ever faster because the motion grows, or whose intervals shrink with a power of their
  * number. See events_parts.h.
  *
- * After 2, 4, 8, … actions a mark keeps the time and the largest size of every number. Actions whose intervals shrink
- * by a constant factor reach their limit, within the rounding of the time, after a few hundred (events_table.c). The
- * marks then tell whether a number has grown by a constant factor too: it has no limit, and the motion ends there.
+ * After 1, 2, 4, 8, … actions a mark keeps the time and the largest size of every number. Actions whose intervals
+ * shrink by a constant factor reach their limit, within the rounding of the time, after a few hundred (events_table.c).
+ * The marks then tell whether a number has grown by a constant factor too: it has no limit, and the motion ends there.
  * Intervals that shrink with a power of the number of actions never become so short. The times of the marks are then a
  * sequence whose differences fall by a nearly constant factor, and Aitken's formula, applied twice, tells its limit.
  */
@@ -151,8 +151,8 @@ static size_t grown(const events *e)
     return which;
 }
 
-/* Judges the marks. Rounding of times must leave enough of the time that is left; and where no number grows, the
- * actions themselves reach the limit unless they are too many (events_table.c). */
+/* Judges the marks. The time left must be far above the rounding of times. Where no number grows, the actions
+ * themselves reach the limit (events_table.c), unless they are too many. */
 static motus_status judge(const events *e, size_t rule, size_t instance, motus_error *err)
 {
     enum { ULPS = 1 << 16, ACTIONS = 1 << 24 };

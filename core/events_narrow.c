@@ -1,9 +1,9 @@
 /* Events that are narrow beside the step, so that the points of dense output may miss them. See events_parts.h.
  *
  * The step is halved until bounds on boxes prove for every piece that the function is nowhere 0 in it or monotone: then
- * its signs at the ends of the pieces tell all its roots. Where that takes too many pieces the step is counted as
- * unseen. Near roots that the points have found, where the function is small, the points are trusted, since no bound
- * decides where a function is flat.
+ * its signs at the ends of the pieces tell all its roots. If that takes too many pieces, the step is counted as unseen.
+ * Near roots that the points have found, where the function is small, the points are trusted, since no bound decides
+ * where a function is flat.
  *
  * Invariant: `here` is the state at the end of the pieces that are decided, `next` that at the end of the present one.
  */

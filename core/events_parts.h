@@ -266,11 +266,11 @@ motus_status events_probe(events *, double from, double lost, const double *x, c
 motus_status events_at(events *, double h, instant *, motus_error *);
 motus_status events_at_of(events *, size_t function, double h, instant *, motus_error *);
 
-/* events_table.c. Makes room for `more` items behind `count` items. False: no memory. */
+/* events_table.c. Makes room for `more` items after `count` items. False: no memory. */
 bool events_grow(const motus_allocator *, void **items, size_t count, size_t *room, size_t more, size_t size);
 /* Adds a row to the table. False: no memory. */
 bool events_note(events *, size_t rule, size_t instance, bool touched, const instant *);
-/* Keeps the state before an action or, with `after`, behind it, if jumps are kept. False: no memory. */
+/* Keeps the state before an action (`after`: the state after it), if jumps are kept. False: no memory. */
 bool events_note_jump(events *, const rule *, const instant *, bool after);
 /* Adds to the latest row the state after its action. False: no memory. */
 bool events_note_after(events *, const instant *);
@@ -345,7 +345,7 @@ double events_polynomial(const double *coefficients, int degree, double tau);
 motus_status events_note_extrema(events *, stepper *, size_t f, const events_piece *, motus_error *);
 /* Keeps the functions that come to rest at 0 or near it where a switch has turned at `here`. */
 motus_status events_note_rest(events *, motus_error *);
-/* Forgets the extrema behind the time `end`, at which an action has cut the step. */
+/* Forgets the extrema after the time `end`, at which an action has cut the step. */
 void events_cut_extrema(events *, double end);
 void events_forget_extrema(events *);
 /* Widens the box of a step by the possible error of the motion. */
@@ -356,7 +356,7 @@ void events_widen(events *);
  * the samples do not tell the roots of the function. */
 motus_status events_narrow(events *, stepper *, size_t function, size_t first, int degree, bool failed, bool *more,
                            motus_error *);
-/* Allows the search of events_narrow more parts of steps, because so many more steps have been taken. */
+/* Allows the search of events_narrow more parts of steps, because `steps` more steps have been taken. */
 void events_may_look(events *, int64_t steps);
 
 /* events_watch.c. Returns the time of the next tick of a clock. */

@@ -171,7 +171,7 @@ motus_status events_locate(events *e, size_t k, motus_error *err)
         status = sign_at(e, c->low, f, &low, err);
         if (!status) status = sign_at(e, c->high, f, &high, err);
         if (status) return status;
-        /* The true values show a crossing, or the extremum decides. A function that the step before has left open may
+        /* The true values show a crossing, or the extremum decides. A function that the step before left undecided may
          * be beyond 0 at the start of this step by its error so far. */
         const bool lingers = c->near && c->low == 0 && low == -(int)c->kind;
         if (low && low == -high && !lingers) {

@@ -119,7 +119,7 @@ static void pass_rules(pass *p, events *e)
     }
 }
 
-/* Passes the instance of a rule, behind a number that says whether there is one. */
+/* Passes the instance of a rule, after a number that says whether there is one. */
 static bool pass_instance(pass *p, const events *e, bool there, size_t *rule, size_t *instance)
 {
     if (!flag(p, there)) return false;

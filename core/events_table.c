@@ -38,7 +38,7 @@ static bool grow_rows(events *e)
     return true;
 }
 
-/* Adds a state behind those of the rows. False: no memory. */
+/* Adds a state after those of the rows. False: no memory. */
 static bool add_state(events *e, const instant *at)
 {
     const size_t nx = e->problem.nx, nv = e->problem.nv;
@@ -258,7 +258,7 @@ bool events_accumulate(events *e, size_t rule, size_t instance, double t)
     if (r->number < RECENT || (e->has_limit && (same || !e->limit_told))) return false;
     const double one = fabs(r->t[0] - r->t[1]), ulp = events_ulp(t), noise = noise_of(e, rule, instance, t);
     if (!best_tail(r, levels, noise, false, &k)) return false;
-    /* two events in one instant, as of a ball that meets two others at once, do not continue a sequence */
+    /* two events in one instant, as when a ball meets two others at once, do not continue a sequence */
     if (one + 2 * noise < fabs(r->t[1] - r->t[2]) * k.ratio / 4) return false;
     if (k.error < k.left / 4) e->tail = k.left;
     if (k.left > ULPS * ulp && one * k.ratio > ULPS_EACH * ulp) {

@@ -11,8 +11,8 @@ typedef struct row row;
 typedef struct chosen {
     const row *row;
     double argument[2];
-    /* Of adaptive rows: a step may be off by the larger of `absolute` and `relative` times the size of the variable;
-     * its size stays between `least` and `most`. */
+    /* In adaptive rows a step may be off by the larger of `absolute` and `relative` times the size of the variable; its
+     * size stays between `least` and `most`. */
     double relative, absolute, least, most;
     int64_t count;             /* of adaptive rows: the most steps of a leg; 0: any number */
     double first;              /* the size of the first step; 0: error control chooses it */

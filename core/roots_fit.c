@@ -2,8 +2,8 @@
  *
  * With x = 2 tau - 1 = -cos(pi k / n) at point k, c_j = (-1)^j 2/n sum'' g_k cos(pi j k / n), where the first and the
  * last term of the sum and the first and the last coefficient are halved. Coefficients of even j are the same sum of
- * half the length over g_k + g_(n-k), those of odd j a sum over g_k - g_(n-k): n^2/3 products instead of n^2, and
- * the sums are short.
+ * half the length over g_k + g_(n-k), those of odd j a sum over g_k - g_(n-k): n^2/3 products instead of n^2, in short
+ * sums.
  */
 #include "core/roots.h"
 #include "core/roots_cell.h"
@@ -132,8 +132,8 @@ void roots_transform(double *values, int degree, double *coefficients)
 /* The largest error of a point: above half a unit in the last place of 1, since points are squares. */
 #define POINTS 0x1.4p-53
 
-/* Bounds the error of values by rounding: that of the sums, by the number of operations that a value meets, relative to
- * the largest value; and that of the points, times a bound on |dp/dtau| by the coefficients. */
+/* Bounds the error of values by rounding. That of the sums: the largest value times the number of operations on the
+ * way. That of the points: their error times a bound on |dp/dtau|, from the coefficients. */
 static double rounding(const double *c, int degree, int levels, double largest)
 {
     const double length = levels + 2 + (degree < 2 * BLOCK ? degree / 2 : BLOCK + degree / (2 * BLOCK));
@@ -158,8 +158,8 @@ static double largest_of(const double *c, int from, int to)
     return most;
 }
 
-/* Bounds the coefficients behind the last as a geometric series with the ratio n / (n + 1). Each counts twice, since it
- * also falsifies one that is seen. There is no bound unless the last ones are small against the first. */
+/* Bounds the coefficients after the last as a geometric series with the ratio n / (n + 1). Each counts twice, since it
+ * also falsifies one that is known. There is no bound unless the last ones are small against the first. */
 static double unseen(const double *c, int degree)
 {
     const double tail = largest_of(c, degree - 2 - degree / 8, degree);
@@ -180,12 +180,12 @@ roots_fit_status roots_fit(const double *values, size_t stride, int degree, doub
     }
     roots_transform(v, degree, coefficients);
 
-    /* Of an even or an odd function every second coefficient is 0, so at least two are looked at. */
+    /* Every second coefficient of an even or odd function is 0, so at least two are looked at. */
     const double tail = largest_of(coefficients, degree - 1 - degree / 16, degree);
     const double own = rounding(coefficients, degree, levels, largest), wrong = noise > own ? noise : own;
     const bool smooth = tail <= wrong || tail <= 0x1p-50 * largest;
 
-    /* Coefficients that are rounding say nothing; without them the bounds of roots_find are sharper. */
+    /* Coefficients that are mere rounding say nothing; without them the bounds of roots_find are sharper. */
     double dropped = 0;
     int last = degree;
     for (; last > 0 && dropped + fabs(coefficients[last]) <= wrong; last--) {

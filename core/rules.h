@@ -74,8 +74,8 @@ typedef struct rules {
     size_t kept_count;
     const size_t *rounded; /* places in x of modes that rounding of their assignments can change */
     size_t rounded_count;
-    /* Evaluates all functions at a state, whose driven boundary cells are refreshed first. Other than 0: the caller's
-     * own function failed. */
+    /* Evaluates all functions at a state, whose driven boundary cells are refreshed first. Nonzero: the caller's own
+     * function failed. */
     int (*values)(void *ctx, double t, double *x, double *v, double *out);
     /* Evaluates the rates of all functions along the motion, dg/dt + (dg/dx) v + (dg/dv) a, where a is the acceleration
      * at the state. */
@@ -108,8 +108,8 @@ typedef struct rules {
      * of the time and all operations. NULL: nothing is known. */
     bool (*apart)(void *ctx, size_t function, bool rate, const double t[2], const double *x, const double *v,
                   const double *dx, const double *dv, const double *most);
-    /* Does to x and v what the rule says, all assignments as if at once. Other than 0: a value was not finite, number
-     * *which of v or x; or, with *which unchanged, the caller's own function returned it. */
+    /* Does to x and v what the rule says, all assignments as if at once. Nonzero: a value was not finite, number *which
+     * of v or x; or, with *which unchanged, the caller's own function returned it. */
     int (*act)(void *ctx, size_t rule, size_t instance, double t, double *x, double *v, bool *in_v, size_t *which);
     /* Turns the switch of an internal rule to the side on which the motion goes on along `way`, 1 forward or -1
      * backward. Where the motion comes to rest within a time that no method resolves, it leads on to there: then t

@@ -132,7 +132,7 @@ static bool net_build(net *g, size_t n, const sparse *x, const sparse *v, const 
 static size_t degree(const net *g, size_t k) { return g->start[k + 1] - g->start[k]; }
 
 /* Walks breadth-first from `root` over the unknowns that have the mark `unmarked`, neighbours of low degree first, and
- * gives them `mark`. Returns how many they are. */
+ * gives them `mark`. Returns how many there are. */
 static size_t sweep(const net *g, uint32_t root, uint32_t *queue, uint32_t *marks, uint32_t mark, uint32_t unmarked)
 {
     size_t head = 0, tail = 0;
@@ -146,7 +146,7 @@ static size_t sweep(const net *g, uint32_t root, uint32_t *queue, uint32_t *mark
             if (marks[other] != unmarked) continue;
             marks[other] = mark;
             size_t at = tail++;
-            /* sorted by insertion; more than 64 neighbours stay in their order, for which this would be slow */
+            /* sorted by insertion, which is slow for many: those beyond 64 neighbours stay in their order */
             if (tail - from <= 64)
                 for (; at > from && degree(g, queue[at - 1]) > degree(g, other); at--) queue[at] = queue[at - 1];
             queue[at] = other;

@@ -7,7 +7,7 @@
 
 #include <string.h>
 
-/* CHECK_ALWAYS: a state of at most so many numbers is checked after every step. LINE: bytes of a cache line, to which
+/* CHECK_ALWAYS: a state of at most this many numbers is checked after every step. LINE: bytes of a cache line, to which
  * arrays are aligned. */
 enum { CHECK_ALWAYS = 4096, LINE = 64 };
 enum { SERIES_MOST = 1 << 27 }; /* numbers of a model's Taylor series: a gigabyte */

@@ -50,11 +50,11 @@ motus_status stepper_branch(stepper *, const stepper *along, double t0, double l
 /* Begins a new leg at the present state, taken as that of time t, with step h, which is the first where steps adapt.
  * Where additions are compensated, the known rounding errors of the state are kept. */
 motus_status stepper_turn(stepper *, double t, double h, motus_error *);
-/* Gives the next steps the order of the last step of `like`, for rows that choose their order, with a tolerance that
- * allows any error. */
+/* For rows that choose their order, used with a tolerance that allows any error: gives the next steps the order of the
+ * last step of `like`. */
 void stepper_follow(stepper *, const stepper *like);
 
-/* How far to go: so many steps, or up to a time (NaN: none), whichever comes first. */
+/* How far to go: `steps` steps, or up to a time (NaN: no limit), whichever comes first. */
 typedef struct stepper_limit {
     int64_t steps;
     double until;
@@ -103,7 +103,8 @@ typedef motus_status (*stepper_judge)(void *ctx, stepper *, int64_t steps, doubl
 /* Returns the status of a run that crawls, with its message. */
 motus_status stepper_crawls(const stepper *, int64_t steps, double gone, motus_error *);
 void stepper_judged(stepper *, stepper_judge, void *ctx);
-/* What an inspector says of a marked step that it is shown. A step is repeated only where stepper_refuses. */
+/* What an inspector says of a marked step that it is shown. Only methods of which stepper_refuses is true repeat a
+ * step. */
 typedef struct stepper_verdict {
     double again; /* the signed size of a candidate with which the step is repeated; 0: the step stands */
     int64_t rest; /* how many steps are taken before the next one is shown */
@@ -128,7 +129,7 @@ double stepper_last_step(const stepper *);          /* size of the latest step, 
 /* Tells the shortest and the longest step of the leg, without one that was cut short at its end; NaN: no step yet. */
 void stepper_sizes(const stepper *, double *shortest, double *longest);
 int64_t stepper_refused(const stepper *);
-int64_t stepper_steps(const stepper *);       /* finished in this leg, with a shorter last one */
+int64_t stepper_steps(const stepper *);       /* finished in this leg, a shorter last one included */
 int64_t stepper_evaluations(const stepper *); /* by the method itself; observing is not counted */
 int64_t stepper_iterations(const stepper *);
 
@@ -157,7 +158,7 @@ typedef struct stepper_watcher {
     double *middle, *width, *least; /* room for a box, x and then v (step/box.h), and for a bound of each function */
     size_t functions;
 } stepper_watcher;
-/* Where the last watched step began, also one that failed. */
+/* Where the last watched step began, even if it failed. */
 typedef struct stepper_left {
     int64_t steps; /* watched steps before it, in which nothing happened */
     double t, lost;

@@ -75,7 +75,7 @@ static motus_status recover(stepper *s, int bad, motus_error *err)
     const motus_status status = stepper_report(s, bad, t, err);
     go_back(s);
     repeat(s, good);
-    if (settle(s) && w->n > s->at.steps) { /* the last state cannot be observed; that before it has been evaluated */
+    if (settle(s) && w->n > s->at.steps) { /* the last state cannot be observed; the state before it was evaluated */
         good = w->n - 1;
         go_back(s);
         repeat(s, good);
@@ -112,11 +112,11 @@ static int take_steps(stepper *s, const stepper_body *body, int64_t steps)
     return !bad && !w->check && !w->finite ? body->check(w) : bad;
 }
 
-/* A run may crawl when the last STEPPER_PACE steps led so little further that 2^24 more would not lead to the end, and
- * steps were 10^4 times as long before; or when 2^30 more would not. With a force that jumps it does crawl: where the
- * force pushes back from both sides of the jump, as dry friction that sticks does, no step can follow. With a smooth
- * force such a run may only be long, and ends where the judge finds a cause; the judge is asked after 2, 4, 8 … times
- * STEPPER_PACE steps. The number of steps alone decides when it is asked, so all machines give the same answer. */
+/* A run may crawl if, at the pace of the last STEPPER_PACE steps, 2^24 more would not lead to the end, and steps were
+ * once 10^4 times as long; or if 2^30 more would not. If the force jumps, the run does crawl: where the force pushes
+ * back from both sides of the jump, like dry friction that sticks, no step can follow. If the force is smooth, the run
+ * may just be long, and ends only if the judge finds a cause. The judge is asked after 1, 2, 4, 8 … times STEPPER_PACE
+ * steps. The number of steps alone decides when, so all machines give the same answer. */
 enum { PACE_LEFT = 1 << 8, PACE_LEFT_ALWAYS = 1 << 14 };
 static const double PACE_FALL = 1e4;
 

@@ -165,7 +165,7 @@ bool stepper_earlier(stepper *s, double *t, double *x, double *v)
 
 /* Failures -------------------------------------------------------------------------------------------------------- */
 
-#define STEPS_TOLD 1e5 /* decimal_time with a span of so many steps has enough digits to tell two steps apart */
+#define STEPS_TOLD 1e5 /* with a span of this many steps decimal_time has enough digits to tell two steps apart */
 
 const char *stepper_name(const stepper *s, bool in_v, size_t k, char out[MOTUS_NAME_MAX])
 {

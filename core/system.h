@@ -46,7 +46,7 @@ typedef struct problem {
     const size_t *variables;
     int variable_count;
     traits traits;
-    /* Evaluates a = a(x, v, t), and may refresh driven boundary cells of x and v. Other than 0: the user's callback
+    /* Evaluates a = a(x, v, t), and may refresh driven boundary cells of x and v. Nonzero: the user's callback
      * failed. */
     int (*accel)(void *ctx, double t, double *x, double *v, double *a);
     /* Evaluates da = (da/dx) dx + (da/dv) dv at (t, x, v); dx or dv may be NULL (zero). NULL: unknown, and difference

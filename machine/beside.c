@@ -14,7 +14,7 @@
 #define PIECE 1e-3      /* seconds from one look to the next, and of computing between two rests */
 #define RESTS 9.0       /* seconds of rest for each second of computing, where it is crowded */
 #define WINDOW 0.02     /* seconds of processor time over which displacements are counted */
-enum { DISPLACED = 2 }; /* so many displacements within WINDOW mean that it is crowded */
+enum { DISPLACED = 2 }; /* this many displacements within WINDOW mean that it is crowded */
 
 static double now(void)
 {

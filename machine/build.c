@@ -21,8 +21,8 @@ bool build_privileged(void) { return geteuid() != getuid() || getegid() != getgi
 
 enum { ABANDONED_SECONDS = 10 * COMPILER_SECONDS_MAX };
 
-/* Removes a folder that is older than so many seconds and holds only files of a compilation. 0 means any age: the clock
- * of time() may be behind that of the files. */
+/* Removes a folder that is older than `seconds` and holds only files of a compilation. 0 means any age: the clock of
+ * time() may be behind that of the files. */
 static void remove_folder(int parent, const char *name, time_t seconds)
 {
     struct stat s;

@@ -2,8 +2,9 @@
  * system's compiler and loaded.
  *
  * Invariant: the object replaces only the loop that advances and the acceleration, so memory, errors, restart and
- * observation are the library's, and the bits are the interpreter's. Each row has an object of its own, which serves
- * every N and every parameter but those that make an operation exact.
+ * observation are the library's, and the bits are the interpreter's. Each row has an object of its own. It serves every
+ * N, and all values of the parameters, except where a value makes an operation exact (emit_exact.c): such values stand
+ * in the text.
  */
 #include <time.h> /* before the texts define `clock` */
 #include "machine/compiled.h"
@@ -200,7 +201,8 @@ const char *compiled_text(compiled *c, const chosen *chosen, size_t *length)
 
 enum { PAIR_CELLS_MAX = 1 << 16, LINE = 64 }; /* LINE: bytes of a line of the cache */
 
-/* Takes room for the partial sums of all cells of a family whose pairs are taken once; NULL: they are taken twice. */
+/* Takes room for the partial sums of all cells, with which each pair of cells is computed once. NULL: pairs are
+ * computed twice. */
 static double *pair_room(compiled *c, const emit *e)
 {
     const model *m = c->model;
@@ -281,7 +283,8 @@ static const char *text_of(compiled *c, const chosen *chosen, emit *e)
     return write_text(c, chosen, e) ? e->text.bytes : NULL;
 }
 
-/* Returns how loops are compiled: those of Taylor series are short, and their sums run in order. */
+/* Returns COMPILER_LOOPS where loops gain from vectors. Those of Taylor series are short, and their sums keep their
+ * order. */
 static int loops_of(const compiled *c, const purpose *p)
 {
     return !compose_small(c->model) && !p->row->expands ? COMPILER_LOOPS : 0;

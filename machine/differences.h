@@ -59,7 +59,7 @@ typedef struct differences {
 /* Returns the step at which a companion lands after step `landed`, in a run of `total` fixed steps; it may be past the
  * end. With adaptive steps a companion lands after every step. */
 int64_t differences_due(int64_t total, int64_t landed);
-/* Returns how many fixed steps the half takes while the run takes n. Of an adaptive step it takes the two halves. */
+/* Returns how many fixed steps the half takes while the run takes n. For an adaptive step it takes two halves. */
 static inline int64_t differences_steps(int64_t n) { return 2 * n + 1; }
 #define DIFFERENCES_ANY_ERROR 1e300 /* an absolute tolerance by which error control accepts every step */
 

@@ -281,7 +281,7 @@ int lanes_in_block(const lanes *l) { return l->block; }
 /* ---- memory ---- */
 
 /* Lists the places of the pool of which every lane has its own: those that depend on what varies, and all places of an
- * array with such a one. False: no memory. */
+ * array that has one. False: no memory. */
 static bool find_reads(lanes *l)
 {
     const model *m = l->def.model;

@@ -31,7 +31,7 @@ typedef struct lanes_tally {
 /* The state of a trajectory between lanes and the one who follows its events: where the next step begins. */
 typedef struct lanes_state {
     double t0, h, tick; /* the leg; a step that reaches the time `tick` is looked at */
-    int64_t stop;       /* with fixed steps: after so many steps of the leg lanes give the trajectory back */
+    int64_t stop;       /* with fixed steps: the steps of the leg after which lanes give the trajectory back */
     stepper_count at;   /* the counters */
     double *carry;      /* the numbers of stepper_save */
     bool end;           /* the trajectory is at its end */
@@ -45,7 +45,7 @@ typedef struct lanes_follower {
     void *ctx;
     /* Begins a trajectory, and gives the state from which lanes go on. False: the trajectory is over already. */
     bool (*begin)(void *ctx, int thread, size_t place, size_t trajectory, lanes_state *);
-    /* Tells whether nothing happened in a step of which the bounds leave that open. */
+    /* Tells whether nothing happened in a step for which the bounds did not prove it. */
     bool (*idle)(void *ctx, int thread, size_t place, const stepper_shown *);
     /* Takes a trajectory back before a step that must be looked at, or at its end, `steps` after the state that it gave
      * last. Gives the state from which lanes go on. False: the trajectory is over. */

@@ -5,8 +5,8 @@
  * to ENDING, and the next one of WAITING takes its lane. So whole blocks take the first steps, which have formulas of
  * their own, and the shorter last steps.
  *
- * Where errors are told a block of companions goes beside each: the companion of a trajectory has its lane there, and
- * moves with it. After every candidate of the trajectories the companions of those that accepted it take the two
+ * If errors are wanted, a block of companions goes beside each block: the companion of a trajectory has its lane there,
+ * and moves with it. After every candidate of the trajectories the companions of those that accepted it take the two
  * halves of the step.
  *
  * Invariant: a trajectory moves with all its numbers, so its bits depend neither on its lane nor on its neighbours.

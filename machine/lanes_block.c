@@ -162,7 +162,7 @@ void lanes_block_begin(const lanes_block *block, const lanes_item *b, const size
 
 /* ---- lanes that are no longer finite ---- */
 
-/* Tells whether a number of a block, with so many elements for each lane, is NaN or as large as the limit. */
+/* Tells whether a number of a block, with `elements` numbers for each lane, is NaN or as large as the limit. */
 static bool some_far(const lanes *l, const double *numbers, size_t elements, double limit)
 {
     return l->far(numbers, elements * (size_t)l->groups, limit);
@@ -253,7 +253,7 @@ void lanes_block_trace(const lanes_block *block, bool first, int64_t steps, int6
 
 /* ---- the end ---- */
 
-/* Returns the tally of a trajectory that has come to its end by so many steps. */
+/* Returns the tally of a trajectory that has come to its end by `steps` steps. */
 static tally tally_of_lane(const lanes_block *b, size_t lane, int64_t steps)
 {
     const lanes *l = b->l;

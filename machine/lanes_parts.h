@@ -167,8 +167,8 @@ void lanes_block_trace(const lanes_block *, bool first, int64_t steps, int64_t n
  * stopped. */
 void lanes_block_observe(const lanes_block *);
 double lanes_block_time(const lanes_block *, size_t lane);
-/* Writes the results of lanes `from` to `to` - 1, after so many observations and steps, for the trajectories from
- * `trajectory` on. */
+/* Writes the results of lanes `from` to `to` - 1, after these numbers of observations and steps, for the trajectories
+ * from `trajectory` on. */
 void lanes_block_results(const lanes_block *, const lanes_call *, size_t from, size_t to, size_t trajectory,
                          int64_t observations, int64_t steps);
 /* Writes the errors of a trajectory, which may have stopped. */

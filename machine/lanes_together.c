@@ -156,7 +156,7 @@ static void new_leg(lanes_item *b, double t0, double h)
     b->n = 0;
 }
 
-/* Takes so many steps of a leg that begins. */
+/* Takes the first `steps` steps of a leg. */
 static void leg(together *s, int64_t steps)
 {
     lanes_item *b = s->item;
@@ -182,7 +182,7 @@ static void next_landing(lanes_item *b, int64_t landed)
     if (b->due > total_of(d)) b->due = total_of(d);
 }
 
-/* Lands the companions at t, where the trajectories stand after so many steps in all, and compares them. */
+/* Lands the companions at t, where the trajectories stand after `steps` steps in all, and compares them. */
 static void land(together *s, int64_t steps, double t)
 {
     lanes_item *b = s->item, *h = b->half;

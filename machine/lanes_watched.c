@@ -4,7 +4,7 @@
  * it tries, accepted or refused, the object computes the box of each lane's step and a lower bound on the size of every
  * function there, as step/watch.h does for one trajectory. If a bound is not positive, the follower is asked whether
  * the step has no event all the same. If it cannot tell, the lane takes the step back; the follower takes it again with
- * its events, and gives the trajectory back at the next step of which bounds may tell.
+ * its events, and gives the trajectory back at the next step for which bounds may prove that nothing happens.
  *
  * Invariant: all that decides the next step moves with a trajectory, so its bits depend neither on its lane nor on its
  * neighbours, nor on which of its steps lanes take.

@@ -22,8 +22,8 @@ bool interpreter_rounding(interpreter *, model_definition *, double t, double *x
 bool interpreter_leaps(interpreter *, model_definition *, bool *flat);
 /* Tells whether the value or the slope of a quantity or invariant may be infinite, if its formula can be examined. */
 bool interpreter_sharp(interpreter *, model_definition *);
-/* Bounds the numbers of one that leaps or is sharp for all states in the intervals, and tells what the bounds leave
- * open. False: no memory. */
+/* For all states in the intervals, bounds the numbers of a quantity or invariant that leaps or is sharp, and tells what
+ * the bounds do not decide. False: no memory. */
 bool interpreter_doubt(interpreter *, model_definition *, double t, interval *x, interval *v, interval *out, doubt *);
 
 /* Makes the program of the acceleration's derivative along a direction of v (in_v) or of x. NULL: no memory. */

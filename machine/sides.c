@@ -171,7 +171,7 @@ static bool apart(void *ctx, size_t f, bool rate, const double t[2], const doubl
     return f < s->own.functions && s->own.apart && s->own.apart(s->own.ctx, f, rate, t, x, v, dx, dv, most);
 }
 
-/* Writes the arguments of the text's own functions; the switches behind them need none. */
+/* Writes the arguments of the text's own functions; the switches after them need none. */
 static void arguments_at(void *ctx, double t, double *x, double *v, double *out)
 {
     const sides *s = ctx;

@@ -14,7 +14,7 @@ enum {
 bool solve_text_admits(const model *, const problem *, const chosen *);
 struct work; /* step/work.h */
 /* Tells whether a step solves one equation, so that its matrix is the same in all steps if derivatives are constant. At
- * most one stage stands outside of it, as the end of Newmark's step or the other half of a kick does. */
+ * most one stage stands outside this equation, such as the end of Newmark's step or the other half of a kick. */
 bool solve_text_single(const struct work *plan);
 /* Makes the programs of da along dx and along dv that the row needs; returns how many: 0, 1 or 2. */
 size_t solve_text_programs(model *, const problem *, const chosen *, composed_program programs[2]);

@@ -1,7 +1,8 @@
-/* The memory layout of a model of neighbours, by which a compiled model computes large systems in tiles, by several
+/* The memory layout of a model of neighbours. With it a compiled model computes large systems in tiles, on several
  * threads.
  *
- * Invariant: the numbers of an outer index are contiguous in each part; parts are in the order of the state's arrays.
+ * Invariant: in each part (machine/text/tiling.h) the numbers of an outer index are contiguous; parts are in the order
+ * of the state's arrays.
  */
 #ifndef MACHINE_TILES_H
 #define MACHINE_TILES_H

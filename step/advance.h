@@ -1,10 +1,10 @@
 /* A STEP: a candidate, which is then accepted or refused.
  *
- * Where it is refused nothing but the size of the next candidate has changed. Rows of fixed step accept always; a
- * compiled model knows that when it is compiled, so it costs nothing.
+ * A refused candidate changes nothing but the size of the next one. Rows of fixed steps always accept; in a compiled
+ * model that is known at compile time, and costs nothing.
  */
 #ifndef ADVANCE_STEP
-#define ADVANCE_STEP static inline /* a compiled model of families has it compiled once, and called */
+#define ADVANCE_STEP static inline /* compiled models with families of cells make it a function that is called */
 #endif
 ADVANCE_STEP int advance_step(work *w)
 {

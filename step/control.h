@@ -150,7 +150,7 @@ static inline void control_settle(work *w, clock_mask good)
 /* Tells whether the candidate is accepted. The clock has no time between the start of a step of a few roundings and its
  * end, so the force at its stages is off by what it changes in one rounding of the time; where the motion comes from
  * rest at 0, that is a large part of its size. The last such step before an end, which no shorter ones replace, may err
- * by as many parts of the size as one rounding of the time is of the step. */
+ * by that part of the size which one rounding of the time is of the step. */
 static inline clock_mask control_good(const work *w)
 {
     const clock h = ABS(w->h), t = ABS(w->t);
@@ -159,7 +159,7 @@ static inline clock_mask control_good(const work *w)
     return (w->error <= 1) | (short_end & (off > 0) & (off * h <= 0x1p-50 * t));
 }
 
-/* Of rows that find their own sizes: w->after is the next one. */
+/* Judges a candidate of a row that finds its own sizes; w->after is the next one. */
 static inline clock_mask control_judge_own(work *w)
 {
     const clock_mask good = control_good(w);
@@ -174,7 +174,7 @@ static inline clock_mask control_judge(work *w)
     const clock_mask good = control_good(w);
     const clock level = control_level(w->error);
     const clock next = w->h * control_factor(w, good, level);
-    /* a step that was cut short tells nothing of the next one */
+    /* a step that was cut short tells nothing about the next one */
     w->next = CHOOSE_WHERE(good & w->ends, w->next,
                            CHOOSE_WHERE(ABS(next) <= w->most, next, CHOOSE_WHERE(next < 0, -w->most, w->most)));
     w->before = CHOOSE_WHERE(good, level, w->before);

@@ -50,7 +50,8 @@ typedef struct density_sizes {
     real x, v, a, j;
 } density_sizes;
 
-/* Of variable g half a span d from the present state, towards the acceleration `there`, a span away. */
+/* Returns the sizes of variable g half a span d from the present state, towards the acceleration `there`, a span
+ * away. */
 static inline density_sizes density_middle(const work *w, int g, const real *there, clock d)
 {
     const clock per_d = 1 / d;

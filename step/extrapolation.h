@@ -110,7 +110,7 @@ static inline clock extrapolation_candidate(work *w, const extrapolation *e, int
 
 /* The error of T[j][j] where the estimates fall so slowly from line to line that it is larger than the estimate of line
  * j: it is (n[j+1]/n[1])² times the estimate of the next line. That is expected to fall as the slower of the last two
- * did. An estimate below 1 may be rounding, and is taken for 1 in this. Of line 2 it is not known how they fall. The
+ * did. An estimate below 1 may be rounding, and is taken for 1 in this. How they fall is not known at line 2. The
  * eighth of the error is allowed, because falls differ. */
 static inline clock extrapolation_error(extrapolation *e, int j, clock estimate)
 {
@@ -173,8 +173,8 @@ static inline void extrapolation_choose(const extrapolation *e, const extrapolat
     *size = CHOOSE_WHERE(held & (longest > bound), bound, longest);
 }
 
-/* Line j by so many parts, whose sums the rule has left; the step ends at it where its error is allowed, and where it
- * is refused. A step that was cut short tells nothing of the next one. */
+/* Judges line j, from the sums that the rule has left: the step ends with it if its error is allowed, or if the step is
+ * refused. A step that was cut short tells nothing about the next one. */
 static inline void extrapolation_judge(work *w, extrapolation *e, const extrapolation_rule *r, int j)
 {
     const clock none = {0}, estimate = extrapolation_candidate(w, e, j, r->each * j);

@@ -3,13 +3,12 @@
  * II.1; Newmark59].
  *
  * Collocation begins each step with the polynomial of the step before, extrapolated, and inserts the stages into their
- * equation; where that contracts slowly Newton's method takes over. Of an affine equation, whose matrix is factored
- * once, and of a single stage, the iteration is Newton's from the start. It is simplified: one matrix a step,
+ * equation; where that contracts slowly, Newton's method takes over. For an affine equation, whose matrix is factored
+ * once, and for a single stage, the iteration is Newton's from the start. It is simplified: one matrix a step,
  * evaluated in the middle of the stages, and evaluated again where the iteration does not contract.
  *
- * Invariant: the unknowns are the stages' accelerations, so the round-off of the solution reaches the state
- * multiplied by h; the iteration ends when they no longer change. What a step begins with is carried from the step
- * before.
+ * Invariant: the unknowns are the stages' accelerations, so the round-off of the solution reaches the state multiplied
+ * by h; the iteration ends when they no longer change. What a step begins with is carried from the step before.
  */
 /* Factors the matrix at the mean of the unknown stages, by Taylor's formula with the present acceleration of the
  * first. */

@@ -1,9 +1,9 @@
 /* THE JUDGE of an iteration: when it has solved its equation, and when it never will.
  *
- * Invariant: an equation is solved to round-off or reported. The iteration ends when the next correction would be
- * lost beside the numbers that it goes to, or when the corrections no longer shrink at a size that rounding alone
- * explains. Of lanes, those whose equation is solved keep their values while the others go on, so each makes the
- * iterations that it would make alone.
+ * Invariant: an equation is solved to round-off or reported. The iteration ends when the next correction would be lost
+ * beside the numbers that it goes to, or when the corrections no longer shrink at a size that rounding alone explains.
+ * Lanes whose equation is solved keep their values while the others go on, so each makes the iterations that it would
+ * make alone.
  */
 enum { JUDGE_TURNS_MAX = 100 };
 
@@ -52,8 +52,9 @@ static inline judge_verdict judge_corrections(work *w, const real *r, const real
     return verdict;
 }
 
-/* Of an iteration that may not contract at all: whether small corrections, `worst` after `last`, may be the beginning
- * of its divergence, and not rounding. That is known once they have shrunk to a quarter, or stayed small for long. */
+/* Tells whether small corrections, `worst` after `last`, may be the beginning of a divergence, and not rounding, in an
+ * iteration that may not contract at all. That is known once they have shrunk to a quarter, or stayed small for
+ * long. */
 static inline mask judge_doubts(real worst, real last, int turn, mask *contracts)
 {
     enum { LONG = 12 };

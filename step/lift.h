@@ -106,8 +106,8 @@ typedef struct lift_weights {
     clock x_dv, x_dx, v_dv, v_dx, s_dv;
 } lift_weights;
 
-/* What every time within a step needs of so many nodes: 1/Π (node j - node l), and the integrals over the step, once
- * and twice, of the l[j], of ω and of u ω. */
+/* For one number of nodes, what every time within a step needs: 1/Π (node j - node l), and the integrals over the step,
+ * once and twice, of the l[j], of ω and of u ω. */
 typedef struct lift_table {
     clock over[LIFT_NODES_MAX + 2], once[LIFT_NODES_MAX + 4], twice[LIFT_NODES_MAX + 4];
 } lift_table;
@@ -214,7 +214,7 @@ static dense_room lift_between(const work *w, coef *unit)
     return (dense_room){.arrays = arrays, .constants = bytes / sizeof(coef)};
 }
 
-/* The state at the part u of the step, by the accelerations at so many nodes within it and their weights. */
+/* Computes the state at the part u of the step, from the accelerations at `nodes` nodes within it and their weights. */
 static void lift_state(const work *w, const dense_step *d, int nodes, const lift_weights *of, const real *inner,
                        clock u, real *x, real *v)
 {
@@ -275,8 +275,8 @@ static int lift_extend(work *w, const dense_step *d)
     return lift_rise(w, d);
 }
 
-/* Of rows that keep what the step adds, without the linear motion, over h² in w->next_x and over h in w->delta: the
- * ends are rounded, and a velocity would take their rounding over h. */
+/* For rows that keep what the step adds without the linear motion: over h² in w->next_x, over h in w->delta. The ends
+ * are rounded, and a velocity from them would have that rounding over h. */
 static inline int lift_extend_kept(work *w, const dense_step *d)
 {
     real *dx = lift_array(w, d, LIFT_APART), *dv = lift_array(w, d, LIFT_APART + 1);

@@ -18,7 +18,7 @@ static inline bool advance_finite(const work *w)
     return !bad;
 }
 
-/* STEP_DIVERGED where the main line holds an infinity or a NaN; w->which, w->in_v say where. */
+/* Returns STEP_DIVERGED if the main line holds an infinity or a NaN; w->which, w->in_v say where. */
 static inline int advance_check(work *w)
 {
     const real *restrict x = w->x, *restrict v = w->v;

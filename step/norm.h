@@ -1,10 +1,10 @@
 /* THE SIZE OF AN ERROR: an error of every number, in units of what the tolerance allows.
  *
- * Numbers of one variable share a size, for a component that is nearly zero is no more exact than its vector; different
- * variables, which may have different units, do not. The size of positions is the largest position at the two ends of
- * the step, and the way that the step leads; so it is not zero where a motion passes through zero. Of velocities and of
- * first-order variables likewise. What is allowed of velocities never falls below the rounding of the positions over
- * the step: at rest in an equilibrium nothing else is left of them.
+ * Numbers of one variable share a size, since a component that is nearly zero is no more exact than its vector;
+ * different variables, which may have different units, do not. The size of positions is the largest position at the two
+ * ends of the step, and the way that the step leads; so it is not zero where a motion passes through zero. Likewise the
+ * sizes of velocities and first-order variables. What is allowed of velocities never falls below the rounding of the
+ * positions over the step: at rest in an equilibrium nothing else is left of them.
  */
 typedef struct norm {
     real size, way, off; /* the largest of a variable */

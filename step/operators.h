@@ -61,7 +61,7 @@ static int kick_implicit(work *w, int i)
     return STEP_OK;
 }
 
-/* Of first-order variables that read v, and that nothing reads, a kick is an integral along the known v + u b a, 0 ≤ u
+/* For first-order variables that read v, and that nothing reads, a kick is an integral along the known v + u b a, 0 ≤ u
  * ≤ 1: from w->a at u = 0 to its mean. One node, the mean velocity, is symmetric and of order 2, which compositions
  * need; Gauss's two nodes are of order 4 [HNW93, II.7]. The accelerations of the positions do not change. */
 static inline int kick_mean(work *w, int i, clock b)

@@ -83,8 +83,8 @@ static inline clock radau_error(work *w)
     return control_norm(w, off_x, off_v);
 }
 
-/* The turns. Of an adaptive row `before` is in units of rounding; slowest: the largest factor by which the
- * corrections shrank from turn to turn, while the equation was open. */
+/* The turns. In an adaptive row `before` is in units of rounding; slowest: the largest factor by which the corrections
+ * shrank from turn to turn, while the equation was open. */
 typedef struct radau_turns {
     real before, slowest;
     mask contracts; /* judge_doubts */
@@ -99,7 +99,7 @@ static inline judge_verdict radau_judge(work *w, radau_turns *it, int turn)
     return now;
 }
 
-/* Of an adaptive row it is enough that the corrections that would follow are small beside what is allowed, or beside
+/* For an adaptive row it is enough that the corrections that would follow are small beside what is allowed, or beside
  * the rounding of the accelerations. Corrections that no longer shrink are rounding, or the step is so long that the
  * iteration contracts slowly. */
 static inline judge_verdict radau_judge_adaptive(const work *w, radau_turns *it, mask open)

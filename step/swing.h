@@ -16,7 +16,7 @@ static inline bool swing_of_stages(const work *w, real *most)
 /* Bounds the accelerations of a step of fixed size with these ends, whose dense output is Hermite's polynomial
  * (dense.h): a polynomial is nowhere larger than its coefficients in Bernstein's basis [Farouki12], and those of q''
  * are the accelerations at the ends and two more; of a first-order variable's rate one more. Twice as much, since rows
- * of a higher order change that polynomial by less (lift.h). Where some number overflows the bound is NaN. */
+ * of a higher order change that polynomial by less (lift.h). If a number overflows, the bound is NaN. */
 static inline void swing_of_ends(size_t nx, size_t nv, clock h, const real *x0, const real *v0, const real *a0,
                                  const real *x1, const real *v1, const real *a1, real *most)
 {

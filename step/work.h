@@ -97,7 +97,7 @@ typedef struct dense_end {
     const real *x, *v, *a;
 } dense_end;
 
-/* What dense output takes besides the two ends of a step: so many arrays, and constants of the row. */
+/* What dense output takes besides the two ends of a step: how many arrays, and how many constants of the row. */
 typedef struct dense_room {
     int arrays;
     size_t constants;
@@ -119,8 +119,7 @@ struct watch {
     real *from_x, *from_v, *to_x, *to_v; /* the states at its ends */
     real *most;                          /* bounds on the accelerations within it */
     real *largest_x, *largest_v;         /* become the largest sizes of the states at which steps begin */
-    real *middle, *width, *least;        /* room for a box (box.h), x and then v, and for bounds on so many
-                                          * functions: */
+    real *middle, *width, *least; /* room for a box (box.h), x and then v, and for a bound on each of `functions` */
     size_t functions;
     clock t, lost, to_t, to_lost; /* where it began, and where it ended */
     ticks n;                      /* steps before it */

@@ -285,8 +285,8 @@ static bool falls(const converge *c, const motus_converge_row *row, const fit_or
 }
 
 /* Returns whether steady slopes over some octaves are clearly below the order. Otherwise round-off came before they
- * settled, or they have not settled yet, and the row neither passes nor fails. Of an order that a double cannot show,
- * the highest one that it can is due. */
+ * settled, or they have not settled yet, and the row neither passes nor fails. For an order that a double cannot show,
+ * the highest that it can show is due. */
 static bool refutes(const fit_order_result *fit, int declared)
 {
     const double due = declared < SHOWN_ORDER ? declared : SHOWN_ORDER;

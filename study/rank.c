@@ -67,7 +67,7 @@ static motus_status refuse_accuracy(double a, motus_error *err)
     return MOTUS_ARGUMENT;
 }
 
-/* Divides an accuracy by ten so many times, to the number that one would write. */
+/* Divides an accuracy by ten, `times` times, to the number that one would write. */
 static double tenth(double a, int times)
 {
     int power = 0;

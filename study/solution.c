@@ -242,13 +242,13 @@ static void own_rounding(const study *s, const study_grid *g, const candidate *c
 
 /* Judging by another method ---------------------------------------------------------------------------------------- */
 
-/* Returns whether a run of so many steps costs more than `most`, switches not counted. */
+/* Returns whether a run of `steps` steps costs more than `most`, switches not counted. */
 static bool too_dear(const study *s, const motus_method *m, double steps, double most)
 {
     return study_work(s, m, steps, -1) > most;
 }
 
-/* Returns the method that judges `best`, and can take so many steps: of another family if one has nearly its order,
+/* Returns the method that judges `best`, and can afford `steps` steps: of another family if one has nearly its order,
  * else another row, else itself. */
 static const motus_method *judge_of(study *s, const motus_method *best, double steps, double most)
 {

@@ -9,7 +9,7 @@
 #include <time.h>
 
 #define PROGRESS_SECONDS 0.01    /* between two calls of the progress hook */
-#define EVALUATION_OVERHEAD 16.0 /* of an evaluation, in numbers */
+#define EVALUATION_OVERHEAD 16.0 /* of an evaluation itself, in numbers of the state */
 #define SOLVE_PASSES 4.0         /* evaluations for each stage that is solved */
 #define SOLVE_FLOPS 3e4          /* operations of elimination that take as long as an evaluation */
 #define AT_REST 1e-10            /* a group that moves less than this part of its size is at rest */

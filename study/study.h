@@ -97,7 +97,7 @@ bool study_fatal(motus_status);
 motus_status study_tell(study *, motus_status, const motus_error *);
 /* Releases the one block of a result. */
 void study_drop(void *result, motus_allocator);
-/* Rounds up, so that another array may begin behind so many bytes of a result. */
+/* Rounds up, so that another array may begin after these bytes of a result. */
 static inline size_t study_aligned(size_t bytes) { return (bytes + 15) & ~(size_t)15; }
 
 /* Makes a run that reports progress through the study. y NULL: from the model's start. Adaptive methods take

@@ -1,4 +1,4 @@
-/* What events that assign, and so end a step, make of a symplectic or reversible method. See explain.h.
+/* How events that assign, and so end a step, affect a symplectic or reversible method. See explain.h.
  *
  * A step of a given size, or to a given time, is a symplectic map; one whose size depends on the state is not. Fixed
  * steps of a reversible method stay reversible: the way back divides the step at the event, too. Error control begins

@@ -21,7 +21,7 @@ void sentences_say(sentences *, const char *format, ...) __attribute__((format(p
 
 /* Returns whether an event that assigns ends steps at a time that the state decides. */
 bool cuts_by_state(const motus_system *);
-/* Returns what events make of the geometry of a run's method, `cut` of motus_run_statistics. */
+/* Returns how events affect the geometry of a run's method: `cut` of motus_run_statistics. */
 const char *cuts_sentence(const motus_run *);
 
 #endif

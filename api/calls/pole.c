@@ -1,19 +1,20 @@
 /* See pole.h.
  *
- * Interval arithmetic excludes poles from parts of the way, by halvings. What is left is so short that a divisor is 0
- * in it. There the force need not be infinite (sin(x)/x), and may have an integral (1/sqrt(|x|)); so its power of the
- * time is found from its changes near the place. Invariant: a pole is found whatever its strength, as far as the
- * rounding of times and states lets the force change by more than its own rounding.
+ * Interval arithmetic excludes poles from parts of the way, which is halved until the parts left are short: places
+ * where a divisor may be 0. The force need not be infinite there (sin(x)/x), or may have an integral (1/sqrt(|x|)). So
+ * the power of the time with which it grows is found, from its changes near the place. Invariant: a pole of any
+ * strength is found, if near it, beyond the rounding of times and states, the force changes by more than its own
+ * rounding.
  */
 #include "api/calls/pole.h"
 
 #include <math.h>
 
 enum { DEPTH = 44, LOOKS = 5000, PLACES = 64, SHORTEST = -34, LONGEST = -12, SCALES = 10, SAME = 3, BETWEEN = 5 };
-#define CLEAR 1e3    /* times the rounding of the force: a smaller change is none */
+#define CLEAR 1e3    /* times the rounding of the force: smaller changes do not count */
 #define FAR 0x1p9    /* least distance, in roundings of a time or a state */
 #define ALIKE 0.02   /* powers this near to one another are equal */
-#define INVERSE 0.95 /* the power of the time from which on a force has no integral */
+#define INVERSE 0.95 /* from this power of 1/time on, a force counts as one without an integral */
 
 typedef struct search {
     const pole_way *way;
@@ -89,7 +90,7 @@ static double change(const pole_way *w, double z, double d)
     return most > CLEAR * 0x1p-52 * size ? most : NAN;
 }
 
-/* Returns the shortest distance from a place that is clear of rounding, as a power of 2, in units of the way. */
+/* Returns the shortest distance from a place that is well above rounding, as a power of 2, in units of the way. */
 static int shortest(const pole_way *w, double z)
 {
     const problem *p = &w->system->problem;
@@ -134,7 +135,7 @@ static bool found(search *s, double low, double high, int depth)
 {
     if (s->looks-- <= 0 || s->places <= 0 || excluded(s->way, low, high)) return false;
     const double middle = low + (high - low) / 2;
-    if (depth == 0) s->places--; /* a divisor that stays at 0 would make every part of the way a place */
+    if (depth == 0) s->places--; /* else a divisor that stays at 0 would make every part of the way a place */
     if (depth == 0) return grows(s->way, middle, 1) || grows(s->way, middle, -1);
     return found(s, low, middle, depth - 1) || found(s, middle, high, depth - 1);
 }

@@ -4,8 +4,8 @@
 
 #include "api/system/system.h"
 
-/* A way from one state to another in the time h: the cubics that have both velocities, or a straight line, whose h may
- * be 0. */
+/* A way from one state to another in the time h: cubics with the velocities of both ends, or a straight line, for which
+ * h may be 0. */
 typedef struct pole_way {
     motus_system *system; /* with known poles */
     double t, h;

@@ -13,7 +13,7 @@ typedef struct varied {
     motus_system *system; /* the clone */
     vary *vary;           /* of the clone's model */
     size_t count, *places;
-    size_t *given; /* for each place, the array of the call with its numbers; `until` has no place */
+    size_t *given; /* for each place, which of the caller's arrays has its numbers; `until` has no place */
     double *values;
 } varied;
 

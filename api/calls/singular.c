@@ -28,7 +28,7 @@ typedef struct end {
     double t, *x, *v, *a;
 } end;
 
-typedef enum course { ARRIVES, HALTS, PASSES, LASTS } course; /* LASTS: takes long, and is on its way */
+typedef enum course { ARRIVES, HALTS, PASSES, LASTS } course; /* LASTS: on its way when the steps ran out */
 
 typedef struct judge {
     motus_run *run;
@@ -141,7 +141,7 @@ static motus_status judged(judge *j, bool acted)
     const double x = fmax(way, vector_apart(j->now.x, j->from.x, p->nx)),
                  v = fmax(vector_largest(j->from.v, p->nv), vector_largest(j->now.v, p->nv));
     if (vector_apart(j->now.x, r->x, p->nx) <= APART * x && vector_apart(j->now.v, r->v, p->nv) <= APART * v)
-        return pole_between(j, &j->now, 0, r->x, r->v, true) ? MOTUS_SINGULAR : MOTUS_OK; /* by its error */
+        return pole_between(j, &j->now, 0, r->x, r->v, true) ? MOTUS_SINGULAR : MOTUS_OK; /* between both ends */
     if (pole_between(j, &j->from, until - j->from.t, r->x, r->v, true)) return MOTUS_SINGULAR;
     return course == ARRIVES ? MOTUS_UNRESOLVED : MOTUS_OK;
 }

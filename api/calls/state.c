@@ -12,7 +12,7 @@
  *     events 90               of a system with events: core/events_state.c; numbers may be nan or inf
  *     0x1.8…
  *     …
- *     bars 40                 the companion of the run, where its errors are told: api/error/bars_kept.c
+ *     bars 40                 the companion of the run, if it has bars: api/error/bars_kept.c
  *     0x1.a36…
  *     …
  *     end 51b0…               hash of all the bytes before, so that a changed byte is found
@@ -195,7 +195,7 @@ static bool read_hex(const char **at, const char *end, double *v)
     return isfinite(*v);
 }
 
-/* Makes room for the text of so many numbers. False: no memory. */
+/* Makes room for the text of `numbers` numbers. False: no memory. */
 static bool make_room(motus_run *r, size_t numbers, size_t *room)
 {
     *room = HEAD_ROOM + numbers * NUMBER_ROOM;
@@ -339,7 +339,7 @@ static bool read_numbers(reader *in, double *out, int64_t n)
     return ok;
 }
 
-/* Reads the numbers behind a name; NULL: the text goes on with another name. False: it is damaged, or there is no
+/* Reads the numbers after a name; NULL: the text goes on with another name. False: it is damaged, or there is no
  * memory. */
 static bool read_block(motus_run *r, reader *in, const char *name, double **numbers, int64_t *count)
 {

@@ -1,6 +1,6 @@
 /* The words of a text for an editor, and those of the language. See motus_text_words.
  *
- * The lexer of lang/text/ reads the text, and goes on behind every error. Invariant: words are in the order of the
+ * The lexer of lang/text/ reads the text, and goes on after every error. Invariant: words are in the order of the
  * text, do not overlap, and every name in them has been compared with every definition among them.
  */
 #include "lang/text/lex.h"
@@ -54,7 +54,7 @@ static void add_name(reading *r, size_t from, size_t to)
     add(r, kind, from, to);
 }
 
-/* Marks what a `when` defines: its name behind `as`, and indices behind `for`. */
+/* Marks what a `when` defines: its name after `as`, and indices after `for`. */
 static void define_event(reading *r)
 {
     bool ranges = false;

@@ -21,10 +21,10 @@ typedef struct worker {
     vary *vary;
     machine machine;
     timing timing;    /* of the present trajectory */
-    stepper *stepper; /* NULL before the first trajectory; the others start it again */
+    stepper *stepper; /* NULL before the first trajectory; later ones start it again */
     events *events;   /* NULL before the first trajectory, and where the system has no rules */
     int number;
-    motus_run *run;     /* the trajectory as a run with the worker's stepper, where errors are told; else NULL */
+    motus_run *run;     /* the trajectory as a run with the worker's stepper; NULL: no errors are wanted */
     vary *half_vary;    /* of the companion's system */
     motus_system *home; /* where `system` is located: the typed system, with the same values; else NULL */
     vary *home_vary;    /* of `home` */
@@ -43,11 +43,12 @@ typedef struct ensemble_goal {
     motus_allocator allocator;
     double wanted;
     bool told;              /* the caller asks for errors */
-    motus_ensemble_def def; /* without what it pointed to */
+    motus_ensemble_def def; /* what its pointers pointed to may be gone */
     request request;        /* with the first tolerance */
     const char *machine;
     struct ensemble_other *others; /* one for each other tolerance */
-    /* of the caller; each part of the search takes half of what is left of a call */
+    /* The progress hook of the caller. The present part of the search has the share `size` of a call, from `from` on:
+     * half of what is left. */
     int (*progress)(void *context, double fraction);
     void *context;
     double from, size;
@@ -97,7 +98,7 @@ struct motus_ensemble {
     size_t *places;        /* of these numbers: in the pool of a model, or in x and then v of a callback */
     size_t *home_places;   /* of these numbers in `home` */
     const double **values; /* of the present run, for these numbers */
-    size_t given;          /* how many arrays of values a run is given, with that of `until` */
+    size_t given;          /* how many arrays of values a run is given, the one of `until` included */
     size_t until;          /* the array of ends; SIZE_MAX: the end does not vary */
     vary *vary;
 
@@ -109,8 +110,8 @@ struct motus_ensemble {
 
     /* ---- errors, where they can be told ---- */
     motus_bars error;
-    /* The columns that are compared: the time, the state, and then those of records, which `how` reduces (NULL: none is
-     * reduced). compared_record: the number of each record among them. */
+    /* The columns that are compared: the time, the state, and then those of the records. how: how each is reduced
+     * (NULL: none is). compared_record: for each record, the place of its column among these. */
     size_t compared, *compared_columns, *compared_record;
     int *how;
     motus_system *half;    /* the system of companions in lanes; NULL */
@@ -118,7 +119,7 @@ struct motus_ensemble {
     double *rounding_room; /* what varies, a state, and bars_moved_room */
     chosen half_chosen;
     vary *half_vary;
-    bool decided, looks; /* decided: whether witnesses are needed is known; looks: they are */
+    bool decided, looks; /* decided: it is known whether witnesses are needed; looks: they are needed */
 
     /* ---- what computes it ---- */
     lanes *lanes;                /* NULL, or awaited: workers compute the trajectories */
@@ -148,7 +149,7 @@ struct motus_ensemble {
     size_t exactly;        /* for tests: 1 + the trajectory before which workers leave; 0: as soon as they can */
 };
 
-/* Returns whether a record tells of the steps of a trajectory, and what: TALLY_ of core/tally.h. */
+/* Returns whether a record is of the steps of a trajectory; and which, as TALLY_ of core/tally.h. */
 static inline bool ensemble_tallies(const motus_record *r) { return r->how >= MOTUS_REDUCE_STEPS; }
 static inline int ensemble_tally(const motus_record *r) { return (int)r->how - (int)MOTUS_REDUCE_STEPS; }
 _Static_assert(MOTUS_REDUCE_TOLERANCE - MOTUS_REDUCE_STEPS == TALLY_TOLERANCE, "they are the same list");
@@ -163,7 +164,7 @@ static inline bool ensemble_steps_differ(const motus_ensemble *e)
 typedef struct places {
     const double *const *values;                      /* for e->places */
     const double *until;                              /* NULL: the end does not vary */
-    double *const *results, *const *errors, *stopped; /* errors NULL: no errors are told */
+    double *const *results, *const *errors, *stopped; /* errors NULL: no errors are wanted */
     bool observes;                                    /* numbers are observed before the end, too */
 } places;
 
@@ -177,7 +178,7 @@ motus_status ensemble_place(const motus_system *, const char *name, size_t *plac
 /* Makes room for the outcomes of `count` trajectories. */
 motus_status ensemble_outcome_begin(motus_ensemble *, size_t count, motus_error *);
 /* Notes the outcome of the worker's trajectory k, which is at its end, or stopped by w->why. began: its stepper had
- * begun; errors: tell those of the times of its events. */
+ * begun; errors: whether to find the errors of its events' times. */
 motus_status ensemble_outcome_take(worker *, size_t k, bool stopped, bool began, bool errors, motus_error *);
 /* Gives trajectory k the outcome of trajectory i of another ensemble. */
 void ensemble_outcome_move(motus_ensemble *to, size_t k, motus_ensemble *from, size_t i);
@@ -185,19 +186,20 @@ void ensemble_outcome_end(motus_ensemble *);
 
 /* ---- ensemble_workers.c: threads, and the trajectories that they take ---- */
 
-/* Calls the progress hook of the ensemble, at most every 10 ms. Other than 0: cancel. */
+/* Calls the progress hook of the ensemble, at most every 10 ms. Nonzero: the caller cancels. */
 int ensemble_report(void *context, double fraction);
-/* Pauses a worker between two pieces of work. Other than 0: it is to leave its work. */
+/* Pauses a worker between two pieces of work. Nonzero: it has to stop. */
 int ensemble_tell(void *worker, double now);
 /* Counts trajectories that a worker has done. MOTUS_CANCELLED: the caller wants no more. */
 motus_status ensemble_done(worker *, size_t count);
 /* Returns whether what is awaited is there, or will never be. Only the caller's thread asks while workers compute. */
 bool ensemble_look(motus_ensemble *);
-/* Returns whether a status is that of a trajectory that stopped, while others go on. */
+/* Returns whether a status means that one trajectory stopped, while the others go on. */
 bool ensemble_stopped(motus_status, const motus_error *why);
 /* Finds the timing of trajectory k. */
 motus_status ensemble_timing(const motus_ensemble *, const places *, size_t k, timing *, motus_error *);
-/* Tells a callback that computes blocks which trajectories it computes; for runs of the system it is trajectory 0. */
+/* Tells a callback that computes blocks which ones come next: `count` trajectories from k on. 0, 0: runs of the
+ * system. */
 void ensemble_number_calls(motus_system *, size_t k, size_t count);
 /* Calls one(worker, item, ctx) for every item from `first` on, by the threads of the ensemble; afterwards the system
  * has its own numbers again. Returns the status of the first item that failed. */
@@ -214,11 +216,11 @@ motus_status ensemble_errors_prepare(motus_ensemble *, motus_error *);
 differences_shape ensemble_errors_shape(const motus_ensemble *);
 /* Makes the system of companions in lanes, with what varies in it, and their method. */
 motus_status ensemble_errors_half(motus_ensemble *, motus_error *);
-/* Adds roundings to errors: the hook `rounding` of lanes_def; one thread at a time passes. */
+/* Adds roundings to the errors: the hook `rounding` of lanes_def. Threads wait for one another in it. */
 void ensemble_errors_rounding(void *ensemble, const double *const *values, size_t trajectory, const double *state,
                               double *const *errors);
 motus_status ensemble_errors_worker(worker *, motus_error *);
-/* Begins trajectory k where the worker's stepper stands; values: of what varies. */
+/* Begins trajectory k where the worker's stepper stands. values: the numbers that vary. */
 motus_status ensemble_errors_begin(worker *, const double *values, size_t k, motus_error *);
 void ensemble_errors_blind(worker *); /* ends the witness of the worker's trajectories */
 
@@ -226,10 +228,10 @@ void ensemble_errors_blind(worker *); /* ends the witness of the worker's trajec
 
 typedef struct trajectory {
     worker *w;
-    double *x, *v, *kept, *now, *values; /* now: of the records; values: of what varies */
+    double *x, *v, *kept, *now, *values; /* now: the records, at present; values: the numbers that vary */
     size_t *columns;
     int64_t observations;
-    bool errors;         /* errors are told */
+    bool errors;         /* errors are wanted */
     stepper_count began; /* the stepper's counters at the start */
 } trajectory;
 
@@ -254,9 +256,9 @@ motus_status ensemble_blocks(motus_ensemble *, const places *, motus_error *);
 
 /* ---- ensemble_witness.c: whether trajectories need a witness each ---- */
 
-/* Decides that once, by so many pilots, spread over the trajectories. */
+/* Decides it once, by `pilots` pilots, spread over the trajectories. */
 motus_status ensemble_witness_ask(motus_ensemble *, const places *, size_t pilots, motus_error *);
-/* Decides that once, by a few pilots, where a call tells errors. */
+/* Decides it once, by a few pilots, when a call wants errors. */
 motus_status ensemble_witness_first(motus_ensemble *, const places *, motus_error *);
 
 /* ---- ensemble_followed.c: what follows the events of lanes ---- */
@@ -293,7 +295,7 @@ void ensemble_later_at(motus_ensemble *, size_t count);
 
 /* ---- ensemble_run.c: a call ---- */
 
-/* Find the arrays of values of a call, with that of the ends, and check all ends. */
+/* Find the arrays of values of a call, the one of the ends included, and check all ends. */
 motus_status ensemble_run_values(motus_ensemble *, const double *const *values, places *, motus_error *);
 motus_status ensemble_run_ends(const motus_ensemble *, const places *, size_t count, motus_error *);
 /* Computes all trajectories with the tolerance of the ensemble. p: the caller's room. */
@@ -301,8 +303,8 @@ motus_status ensemble_run_all(motus_ensemble *, size_t count, const double *cons
 
 /* ---- ensemble_make.c ---- */
 
-/* Makes an ensemble by a sound definition and its settled request. goal: the ensemble's, with which it has one more
- * record, or NULL. like: an ensemble that supplies what varies, since the names are gone, or NULL. */
+/* Makes an ensemble from a sound definition and its settled request. goal: adds one record, for the accuracy; may be
+ * NULL. like: an ensemble to copy the varying numbers from, once the caller's names are gone; may be NULL. */
 motus_status ensemble_make(motus_system *, const motus_ensemble_def *, const request *, ensemble_goal *goal,
                            const motus_ensemble *like, motus_ensemble **, motus_error *);
 void ensemble_free(motus_ensemble *); /* keeps the goal */

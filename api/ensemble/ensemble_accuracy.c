@@ -1,11 +1,12 @@
-/* An ensemble with an accuracy: every trajectory has its own tolerance, with which its bars keep to the accuracy.
+/* An ensemble with an accuracy: every trajectory has its own tolerance, small enough that its bars are within the
+ * accuracy.
  *
  * The ensemble itself computes all trajectories with one first tolerance. Those whose bars are too large are computed
- * again, by the rule that runs follow (search.h), by one ensemble for each tolerance that is tried; tolerances are
- * rounded so that there are few.
+ * again with smaller ones, chosen as for runs (search.h): one ensemble for each tolerance that is tried. Tolerances are
+ * rounded, so that there are few.
  *
- * Invariant: the tolerance of a trajectory follows from its own bars alone, so its numbers depend neither on other
- * trajectories, nor on calls, lanes and threads.
+ * Invariant: the tolerance of a trajectory follows from its own bars alone, so its numbers do not depend on other
+ * trajectories, calls, lanes or threads.
  */
 #include "api/request/choice.h"
 #include "api/ensemble/ensemble.h"
@@ -94,7 +95,7 @@ typedef struct attempt {
     motus_ensemble *e;
     ensemble_goal *goal;
     const double *const *values;
-    double *const *results, *const *errors, *stopped, *reached; /* the best of every trajectory */
+    double *const *results, *const *errors, *stopped, *reached; /* of the best trial of each trajectory */
     open_one *open;
     size_t count; /* open trajectories */
     size_t missed, first_missed;
@@ -110,7 +111,7 @@ static void list_open(attempt *a, size_t count)
 {
     const ensemble_goal *g = a->goal;
     search s = search_by_tolerance(g->wanted, g->request.set.absolute);
-    search_set(&s, tally_tolerance(&a->e->chosen)); /* reversible rows take a smaller one */
+    search_set(&s, tally_tolerance(&a->e->chosen)); /* reversible rows take a smaller tolerance */
     s.few = true;
     for (size_t k = 0; k < count; k++) {
         if (!isnan(a->stopped[k]) || a->reached[k] <= g->wanted) continue;

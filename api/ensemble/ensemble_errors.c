@@ -1,8 +1,7 @@
 /* Errors of an ensemble's trajectories: what is compared, and a trajectory as a run with a companion. See ensemble.h.
  *
  * Invariant: errors change no bit of a trajectory, unless its witness objects to a step. The companion's system is the
- * shadow of the ensemble's, in which the same numbers vary; the values that a caller gives are doubles, so both have
- * them.
+ * shadow of the ensemble's, in which the same numbers vary; a value that a caller gives is a double, and equal in both.
  */
 #include "api/error/bars.h"
 #include "api/ensemble/ensemble.h"
@@ -69,7 +68,7 @@ motus_status ensemble_errors_half(motus_ensemble *e, motus_error *err)
     return vary_create(e->half->model, e->places, e->vary_count, true, true, &e->half_vary, err);
 }
 
-/* Adds roundings to errors at the end. It may use the companion's numbers: on which side of a decimal they are hardly
+/* Adds roundings to errors at the end. The companion's system will do: that its decimals are rounded otherwise hardly
  * changes how far a state moves. */
 static void add_rounding(motus_ensemble *e, size_t trajectory, const double *state, double *const *errors)
 {

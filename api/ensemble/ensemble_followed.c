@@ -159,7 +159,7 @@ static bool look(void *ctx, int thread, size_t place, int64_t steps, const doubl
 /* ---- all ---- */
 
 /* Finds whether the force, the functions of events or their actions read a number that varies or follows from one that
- * does. Where only initial values vary they mostly do not. False: no memory. */
+ * does. If only initial values vary, they mostly do not. False: no memory. */
 static bool depends(const motus_ensemble *e, bool *out)
 {
     model *m = e->system->model;

@@ -1,4 +1,4 @@
-/* The lanes of an ensemble: what they are told to compute, and why they cannot. See ensemble.h. */
+/* The lanes of an ensemble: what they have to compute, or why they cannot. See ensemble.h. */
 #include "api/error/bars.h"
 #include "api/ensemble/ensemble.h"
 #include "machine/reduction.h"
@@ -131,7 +131,7 @@ static bool rounds(const motus_ensemble *e)
     return false;
 }
 
-/* Returns why errors are told one trajectory at a time although lanes could compute the trajectories; NULL: lanes tell
+/* Returns why errors are found one trajectory at a time although lanes could compute the trajectories; NULL: lanes find
  * them. How far from the start ends lie that vary is not known here. */
 static const char *told_singly(const motus_ensemble *e)
 {

@@ -1,6 +1,6 @@
 /* What computes the trajectories of an ensemble: lanes, blocks of a callback, or workers. See ensemble.h.
  *
- * While a compiler is at work, workers begin in the interpreter. When its object is there they leave the trajectories
+ * While a compiler is at work, workers begin in the interpreter. When its object is there, they leave the trajectories
  * that they have not finished; lanes or compiled workers compute all from the first of these on.
  *
  * Invariant: the bits do not depend on when that happens: a trajectory has equal bits on all machines, and none changes
@@ -153,7 +153,7 @@ void ensemble_later_at(motus_ensemble *e, size_t count)
     e->exactly = 1 + count;
     e->compiled_from = -1;
     if (e->awaits) return;
-    e->awaits = e->lanes ? AWAITS_LANES : AWAITS_MACHINE; /* it is already there */
+    e->awaits = e->lanes ? AWAITS_LANES : AWAITS_MACHINE; /* though it is already there */
     e->found = e->machine;
     e->machine = e->system->machine;
 }

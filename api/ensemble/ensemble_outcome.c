@@ -80,7 +80,7 @@ motus_status ensemble_outcome_take(worker *w, size_t k, bool stopped, bool began
         diagnosis_add(&w->diagnosed, w->stepper, &w->why);
         o->cause = (unsigned char)w->why.cause;
     }
-    /* A trajectory without a beginning would show the events of another. */
+    /* w->events would be those of another trajectory. */
     if (!began || !w->events) return MOTUS_OK;
     if (!stopped && events_ended(w->events, &rule) != EVENTS_END_NONE) o->ended = (uint32_t)rule + 1;
     return e->event_columns ? take_table(w, o, errors, err) : MOTUS_OK;

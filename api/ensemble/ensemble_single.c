@@ -142,7 +142,7 @@ motus_status ensemble_single_begin(trajectory *s, const places *p, size_t k, boo
     worker *w = s->w;
     const motus_ensemble *e = w->e;
     timing *t = &w->timing;
-    if (w->events) events_forget(w->events); /* it may not begin, and then has no events */
+    if (w->events) events_forget(w->events); /* a trajectory that cannot begin has no events */
     if (!s->errors) ensemble_errors_blind(w);
     motus_status status = start(s, p->values, k, err);
     if (status == MOTUS_OK) status = ensemble_timing(e, p, k, t, err);

@@ -1,8 +1,8 @@
 /* Whether the trajectories of an ensemble need a witness each. See ensemble.h and witness.h.
  *
- * Where errors are told, and the force may do more within a step than steps show, some trajectories, the pilots, go one
- * at a time with a witness, as far as a budget leads. Where a pilot's witness objects to a step, all trajectories go
- * one at a time with a witness.
+ * If errors are wanted, and the force may do more within a step than steps show, some trajectories, the pilots, first
+ * go one at a time with a witness, as far as a budget allows. If a pilot's witness objects to a step, all trajectories
+ * go one at a time with a witness.
  *
  * Invariant: that is decided once, by the definition and the pilots, not by machine, threads or calls.
  */
@@ -81,7 +81,7 @@ motus_status ensemble_witness_ask(motus_ensemble *e, const places *p, size_t pil
     if (!e->machine.problem) e->machine = e->system->machine;
     status = ensemble_each(e, 0, pilots, fly, &f, err);
     e->awaits = awaits, e->exactly = exactly;
-    ensemble_workers_destroy(e); /* their witnesses leave companions as they are */
+    ensemble_workers_destroy(e); /* their witnesses only looked (witness_leave) */
     e->decided = status == MOTUS_OK;
     e->looks = e->decided && atomic_load(&f.objected);
     return status;

@@ -19,7 +19,7 @@ int ensemble_report(void *context, double fraction)
     const double t = e->progress ? pace_now() : 0;
     if (!e->progress || t - e->reported < 0.01) return 0;
     e->reported = t;
-    if (fraction > e->fraction) e->fraction = fraction; /* trajectories that lanes leave begin anew */
+    if (fraction > e->fraction) e->fraction = fraction; /* it never falls, though trajectories may begin anew */
     return e->progress(e->context, e->fraction);
 }
 
@@ -222,7 +222,7 @@ static motus_status judge(const motus_ensemble *e, int threads, motus_error *err
 motus_status ensemble_each(motus_ensemble *e, size_t first, size_t items,
                            motus_status (*one)(worker *, size_t item, void *ctx), void *ctx, motus_error *err)
 {
-    const bool replaces = e->system->model && e->vary_count; /* the model's own numbers, by those of trajectories */
+    const bool replaces = e->system->model && e->vary_count; /* trajectories overwrite the model's own numbers */
     double *own = replaces ? set_aside(e->system) : NULL;
     if (replaces && !own) return fail(err, MOTUS_MEMORY, "no memory for the ensemble");
     int threads = items < (size_t)e->threads ? (int)items : e->threads;

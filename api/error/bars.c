@@ -28,7 +28,7 @@ static motus_status take_machine(companion *c, compiled_state state, const machi
     return status == MOTUS_MEMORY ? MOTUS_OK : status;
 }
 
-/* Compiles the companion's system. It is not the run's, but has usually the same text, which is compiled already. */
+/* Compiles the companion's system. It is not the run's, but usually has the same text, which is compiled already. */
 static motus_status compile_half(motus_run *r, motus_error *err)
 {
     companion *c = &r->bars->half;
@@ -126,8 +126,8 @@ motus_status bars_ready(motus_run *r, const uint8_t *affected, motus_error *err)
     return choice_compile(c->system, &method, false, r->bars->kept, &c->machine, &why, err);
 }
 
-/* Begins the half where the model says, with the model's decimals on their other side, or where the caller put the run.
- * A start that was written is rounded as well, so the half begins as much earlier or later. */
+/* Begins the half where the model says, with its decimals rounded the other way, or where the caller put the run. The
+ * start time is such a decimal too, so the half begins earlier or later by its rounding. */
 static motus_status begin_half(motus_run *r, double *x, double *v, motus_error *err)
 {
     bars *b = r->bars;
@@ -145,8 +145,8 @@ static motus_status begin_half(motus_run *r, double *x, double *v, motus_error *
     return status == MOTUS_OK ? companion_begin(&b->half, r, t, to_x, to_v, err) : status;
 }
 
-/* Finds how far the rounding of places moves each acceleration; room: accelerations, then places. Returns the largest
- * of these roundings; 0: not known. */
+/* Finds how far the rounding of the positions moves each acceleration; room: accelerations, then positions. Returns the
+ * largest of these roundings; 0: not known. */
 static double take_steep(const problem *p, double t, double *x, double *v, double *steep, double *room)
 {
     double unit = 0, *const there = room, *const moved = there + p->nv;
@@ -247,7 +247,7 @@ static void begin_leg(motus_run *r) { bars_again(r, true); }
 
 /* ---- landings ---- */
 
-/* Returns whether landing makes sense, since there are bars to tell. */
+/* Returns whether a landing can still tell bars. */
 static bool alive(const bars *b) { return !b->why[0] && isnan(b->differences.until); }
 
 /* Returns the step at which the next landing is due. */
@@ -257,11 +257,12 @@ static int64_t due(const motus_run *r)
     return row_adaptive(&r->chosen) ? before + 1 : differences_due(r->timing.total, before);
 }
 
-/* Units in the last place of the time: closer events, as those that accumulate, need not have the same order in two
- * computations of one motion. */
+/* Units in the last place of the time. Events closer than this, as when they accumulate, need not have the same order
+ * in two computations of one motion. */
 #define CLOSE 1024
-/* Part of what a steep force makes of rounding. With 0.3, 1.1 % of 22 500 numbers of balls on stiff floors were beyond
- * their bars, 0.2 per mille far beyond, and 81 % of the bars were tight; with 0: 1.8 %, 0.9 per mille, 84 %. */
+/* The part of a steep force's effect on roundings by which `spread` moves the companion. With 0.3, 1.1 % of 22 500
+ * numbers of balls on stiff floors were beyond their bars, 0.2 per mille far beyond, and 81 % of the bars were tight;
+ * with 0: 1.8 %, 0.9 per mille, 84 %. */
 #define STEEP 0.3
 /* A companion need not be moved by less than this multiple of its distance from the run. */
 #define SHOWN 2.0
@@ -272,7 +273,7 @@ static bool along(const motus_run *r, const companion *c, double t, bool between
     if (!r->events || !c->events) return true;
     if (between) return !c->over && events_acted_before(r->events, t) == events_acted(c->events);
     if (c->over != run_events_ended(r)) return false;
-    /* of events that accumulate each has had as many as it could tell apart */
+    /* where events accumulate, each has had as many of them as it could tell apart */
     return events_acted(r->events) == events_acted(c->events) || events_accumulated(r->events, NULL);
 }
 
@@ -282,7 +283,7 @@ static motus_status reach_both(bars *b, const companion_goal *to, double span, m
     return status == MOTUS_OK && b->twin.events ? companion_reach(&b->twin, to, span, err) : status;
 }
 
-/* Leads companions to their own event, which may come later, where the run stands at one. */
+/* Where the run stands at an event, leads the companions to theirs, which may come later. */
 static motus_status reach(motus_run *r, double t, motus_error *err)
 {
     bars *b = r->bars;
@@ -293,8 +294,9 @@ static motus_status reach(motus_run *r, double t, motus_error *err)
     if (interval / 4 < least) interval = 4 * least;
     const double span = copysign(!ends && interval / 4 < most ? interval / 4 : most, way);
     if (!ends && events_latest(r->events) != t) return MOTUS_OK;
-    /* Where events accumulate a step much longer than what is left before the limit would not tell the events in it.
-     * And the companion may be so far off then that it does not end there: then it has had as many. */
+    /* Where events accumulate, a step much longer than the time left before the limit would not tell the events in it
+     * apart. And the companion may be too far off to end at its limit: it is then enough that it has had as many
+     * actions. */
     const bool limit = ends && events_accumulated(r->events, NULL);
     const double tail = limit ? copysign(8 * events_tail(r->events), way) : 0;
     companion_goal to = {events_acted(r->events), ends, !ends};
@@ -326,9 +328,9 @@ static bool shows(const companion *c, const problem *p, const double *x, const d
     return SHOWN * apart[0] >= vector_largest(to->x, p->nx) && SHOWN * apart[1] >= vector_largest(to->v, p->nv);
 }
 
-/* Moves the companion away from the run where a force is steep. Such a force makes of the rounding δ of places a part
- * of the velocity, about ω δ for a contact of rate ω. One contact has so few roundings that run and companion often
- * make the same of them, to a tenth or less; moved, they part as a random walk of such parts does. */
+/* Moves the companion away from the run where a force is steep. Such a force turns the rounding δ of positions into a
+ * change of velocity, about ω δ for a contact of rate ω. In one contact the roundings are so few that run and companion
+ * often differ by a tenth of that or less. With these moves they part as in a random walk of such changes. */
 static motus_status spread(motus_run *r, double t, double *x, double *v, motus_error *err)
 {
     bars *b = r->bars;
@@ -342,7 +344,7 @@ static motus_status spread(motus_run *r, double t, double *x, double *v, motus_e
     for (size_t k = 0; k < p->nx - p->modes; k++) {
         const double most = fmax(before[k], now[k]), size = STEEP * fmin(h * most, sqrt(unit * most));
         const double apart = c->v[k] - v[k];
-        if (!(size > events_ulp(v[k]))) continue; /* a companion shows it */
+        if (!(size > events_ulp(v[k]))) continue; /* less than the velocity's rounding */
         dv[k] = copysign(hypot(apart, size), apart) - apart;
         moves = true;
     }
@@ -410,7 +412,7 @@ static motus_status land_here(motus_run *r, bool observed, motus_error *err)
     motus_error theirs = motus_default_error();
     motus_status status = b->started ? MOTUS_OK : start(r, observed, err);
     const double gone = way * (t - b->landed);
-    /* the last event of those that accumulate may be at the time of the one before */
+    /* of events that accumulate the last may have the time of the one before it */
     const bool ends = gone == 0 && !b->ahead && !b->end_reached && run_events_ended(r);
     if (status != MOTUS_OK || !alive(b) || (b->ahead ? gone < 0 : gone <= 0 && !ends)) return status;
     status = run_sync(r, false, &theirs);
@@ -457,7 +459,7 @@ static motus_status begin(motus_run *r, motus_error *err)
 
 static void run_failed(motus_run *r) { bars_give_up(r, "the run failed"); }
 
-/* `before` lands where that is due, and not earlier, because times within the last step may be asked for. */
+/* `before` lands when a landing is due and not earlier, because the caller may ask for times within the last step. */
 static const run_company company = {.begin = begin,
                                     .leg = begin_leg,
                                     .before = ask_room,

@@ -10,14 +10,14 @@
 
 struct bars {
     motus_bars kind;
-    bool kept;             /* companions, as the run, use a compiled object only if it is already there */
+    bool kept;             /* companions, like the run, use a compiled object only if it is already there */
     bool given_x, given_v; /* the caller gave the run's start in place of the model's */
     bool started;
     witness *witness;     /* NULL: the witness cannot look at such a run */
-    companion half, twin; /* of about half the step; a twin of the run from a state that is an ulp away */
+    companion half, twin; /* half: with about half the step; twin: as the run, from a state that is an ulp away */
     size_t count;         /* how many numbers are compared, and their columns */
     size_t *columns;
-    uint8_t *whole; /* where there are events: whether each number only counts (event_bars.c); NULL */
+    uint8_t *whole; /* whether each number only counts (lang/model/whole.h); NULL: there are no rules */
     size_t endless; /* 1 + the rule whose events accumulated when `whole` was judged; 0: none */
     double *memory; /* for `differences` */
     double *room;   /* bars_moved_room; bars_later uses it for a state and its acceleration */
@@ -28,17 +28,17 @@ struct bars {
     double landed;  /* the time of the last landing */
     int64_t steps;  /* whole steps of the run before the last landing */
     double seconds; /* spent on bars */
-    /* What a restart state has of the bars, until they begin; NULL. */
+    /* The numbers of a restart state for the bars, until these begin; else NULL. */
     double *resumed;
     size_t resumed_count;
     /* The companion of a restored run landed beyond the run, after a shorter last step that the state does not have. */
     bool ahead;
-    /* Run and companion have had different events, as between the times of one event in both; their states are then not
-     * compared. */
+    /* Run and companion have had different events, as when one of them has had an event just before the other; their
+     * states are then not compared. */
     bool gap;
     double gap_since;
     bool end_reached;   /* the companion was led to where events ended the run */
-    double *open_since; /* of each rule: since when its number of events is open; NULL: of none */
+    double *open_since; /* for each rule: the time from which the number of its events is uncertain; NULL: for none */
     size_t rows;        /* how many rows of the table of events a companion confirms */
     bool rows_differ;   /* after these rows the companion has other events */
     char why[256];      /* why there are no bars; "": there are bars */
@@ -57,7 +57,7 @@ void bars_again(motus_run *, bool given);
 void bars_forget_events(motus_run *);
 /* Lands where the run stands. */
 motus_status bars_land(motus_run *, motus_error *);
-/* Lands where the run stands, for an observation, which enters the numbers that are reduced. */
+/* Lands where the run stands, for an observation, which the reduced numbers take in. */
 motus_status bars_observe(motus_run *, motus_error *);
 /* Lands at a time within the last step. x, v: the run's state there, in the inside order. */
 motus_status bars_land_between(motus_run *, double t, double *x, double *v, motus_error *);
@@ -76,12 +76,12 @@ motus_status errors_tell(motus_run *, double t, double *x, double *v, const size
 double bars_worst(const bars *, bool absolute, bool unknown);
 /* Returns the factor from the distance between run and companion to the bar. */
 double bars_part(const motus_run *);
-/* How many parts in 2^52 of the velocities run and companion share after every event that changed the state; such a
- * part acts on all the time since. A row adds the same numbers in the same order step after step, so the parts have one
+/* The error of velocities, in parts of 2^-52, that run and companion share after each event that changed the state; it
+ * acts for all the time since. A row adds the same numbers in the same order step after step, so the parts have one
  * sign: dopri5 leaves 2^-52 of the velocity of each flight of a ball. */
 #define BARS_LASTING 1.5
-/* Return by how much the state at t is late or early in run and companion alike, where events have happened: by what
- * their times share, and (bars_late) by the rounding of the run's end. */
+/* Return by how much the state at t may be late or early in run and companion alike: by the error that the times of
+ * events share, and (bars_late) by the rounding of the run's end. */
 double bars_events_late(const motus_run *, double t);
 double bars_late(const motus_run *, double t);
 /* Ends the bars, with the reason. The first reason stays. */
@@ -99,15 +99,15 @@ motus_status bars_see(motus_run *, motus_system *, double t, double *x, double *
 /* Moves the state x, v at t to one `late` later, in the bars' room, which the next call uses again. */
 motus_status bars_later(motus_run *, motus_system *, double t, double late, const double *x, const double *v,
                         double **to_x, double **to_v, motus_error *);
-/* Returns the room that bars_moved takes for so many columns. */
+/* Returns the room that bars_moved takes for `count` columns. */
 static inline size_t bars_moved_room(const motus_system *s, size_t count)
 {
     return s->problem.nx + 2 * s->problem.nv + 3 + count;
 }
 motus_status bars_moved(motus_system *, double t, double late, const double *x, const double *v, const size_t *columns,
                         size_t count, double *room, double *out, motus_error *);
-/* Returns how much later a time was written than the double that was read. of_model, of_half: that time as computed by
- * the model and by the companion's system; NaN: it is not the model's. */
+/* Returns how much later a time is, as it was written, than the double that was read. of_model, of_half: that time as
+ * computed by the model and by the companion's system; NaN: it is not the model's. */
 double bars_time_rounding(double t, double of_model, double of_half);
 /* Bounds how far from the double `until` runs of a system may end: by how it was written, and by what rounding leaves
  * out of times. half: the companion's system; NULL: not known yet. */

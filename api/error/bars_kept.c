@@ -11,8 +11,8 @@
 #include <string.h>
 
 enum { LANDED, TWIN, HEAD }; /* the time of the last landing; 1 if there is a twin; then the companions */
-/* Behind the differences, where there are events: whether there is a gap, and since when; then, of each rule, whether
- * the number of its events is open, and since when. */
+/* After the differences, if there are events: whether there is a gap, and from what time; then, for each rule, whether
+ * the number of its events is uncertain, and from what time. */
 enum { GAP, SINCE, TAIL };
 static size_t tail_of(const motus_run *r) { return r->events ? TAIL * (1 + r->rules->count) : 0; }
 
@@ -132,7 +132,7 @@ static motus_status begin(motus_run *r, companion *c, const double **at, const d
     return status;
 }
 
-/* Reads what stands behind the companions. */
+/* Reads what follows the companions. */
 static motus_status resume(motus_run *r, bool was_twin, const double *at, motus_error *err)
 {
     bars *b = r->bars;

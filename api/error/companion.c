@@ -170,8 +170,8 @@ motus_status companion_reach(companion *c, const companion_goal *to, double span
     return status;
 }
 
-/* Goes to t in so many equal steps. Adaptive steps are never refused, or begin with this size; and the equation of a
- * step may need shorter ones. */
+/* Goes to t in `steps` equal steps. Adaptive steps are never refused, or only begin with this size; and the equation of
+ * a step may need shorter ones. */
 static motus_status go(companion *c, const motus_run *r, double t, int64_t steps, motus_error *err)
 {
     const bool adaptive = row_adaptive(&r->chosen);

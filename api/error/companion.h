@@ -34,26 +34,28 @@ motus_status companion_land(companion *, const motus_run *, double t, int64_t st
 typedef struct companion_goal {
     int64_t acted; /* how often rules have assigned */
     bool ends;     /* the event ended the run, and ends the companion */
-    bool enough;   /* as many actions are enough, even if the last of them ends nothing */
+    bool enough;   /* `acted` actions are enough, even if the last of them ends nothing */
 } companion_goal;
-/* Goes on to the companion's own event of that kind, but at most `span` further. */
+/* Goes on to the companion's own event that reaches the goal, but at most `span` further. */
 motus_status companion_reach(companion *, const companion_goal *, double span, motus_error *);
-/* Moves the state of an exact motion by what rounding may make of it, since steps do not differ there. */
+/* Moves the state by its rounding, for rows that compute the motion by a formula: halving their steps changes
+ * nothing. */
 motus_status companion_jog(companion *, const motus_run *, motus_error *);
 /* Moves numbers by at least an ulp, or by `size` if given; a hash of their places and `salt` says up or down. */
 void companion_move(double *y, size_t count, const double *size, uint32_t salt);
 /* Moves the state by dx and dv. */
 motus_status companion_shift(companion *, const motus_run *, const double *dx, const double *dv, motus_error *);
-/* Goes to t as the witness leads, in place of own steps; the companion has no events. */
+/* Goes to t as the witness leads, instead of by steps of its own. The companion must have no events. */
 motus_status companion_led(companion *, const motus_run *, witness *, double t, motus_error *);
 /* Repeats the steps of the run, and so lands where the run stands. */
 motus_status companion_repeat(companion *, const motus_run *, motus_error *);
-/* Counts the numbers that a restart state has of a companion with events, besides its state; writes them unless `out`
- * is NULL. */
+/* Returns how many numbers a restart state keeps of a companion with events, besides its state; writes them unless
+ * `out` is NULL. */
 size_t companion_keep(const companion *, double *out);
-/* Resumes from such numbers at *at, which moves behind them. MOTUS_STATE: they are not a companion's. */
+/* Resumes from the numbers of companion_keep at *at, and moves *at past them. MOTUS_STATE: they are not a
+ * companion's. */
 motus_status companion_resume(companion *, const motus_run *, const double **at, const double *end, motus_error *);
-bool companion_skip(const double **at, const double *end); /* moves *at behind such numbers; false: they are damaged */
+bool companion_skip(const double **at, const double *end); /* moves *at past such numbers; false: they are damaged */
 void companion_end(companion *, const motus_allocator *);
 
 #endif

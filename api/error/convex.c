@@ -1,6 +1,6 @@
 /* See convex.h. The algorithm of Mitchell, Demyanov and Malozemov [MDM74]: a point of the hull is a mean of the points.
- * In each turn the point with a share that lies farthest in the direction of the mean gives from its share to the point
- * that lies farthest in the direction of the origin. */
+ * In each turn, of the points with a share in the mean, the one farthest from the origin along the mean gives some of
+ * its share to the point that is nearest along it. */
 #include "api/error/convex.h"
 
 #include <math.h>

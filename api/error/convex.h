@@ -6,8 +6,8 @@
 
 /* Returns the product of two points of n numbers, where each number counts by its weight. */
 double convex_product(const double *a, const double *b, const double *weight, size_t n);
-/* Returns the distance, at most as exact as `enough`. points: `count` points of n numbers, one behind the other;
- * nearest: the nearest point of the hull, and `share` its share of each point. */
+/* Returns the distance; if it is below `enough`, it need not be exact. points: `count` points of n numbers, one after
+ * the other. nearest: gets the nearest point of the hull, and `share` the weight of each point in it. */
 double convex_distance(const double *points, size_t count, size_t n, const double *weight, double enough, double *share,
                        double *nearest);
 

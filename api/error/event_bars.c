@@ -1,10 +1,10 @@
 /* See event_bars.h.
  *
  * Row k of the run is compared with the companion's row of the same rule, indices and number. As at landings
- * (machine/differences.c) 2.5 times their distance bounds truncation, where that rules, and a part of the largest
- * distance of the neighbouring rows covers a distance that passes 0. From the first row on that the companion lacks, or
- * has at a time off by more than a quarter of the time since the event before, the two motions have different events,
- * and no digit is told.
+ * (machine/differences.c), 2.5 times their distance bounds the error of truncation, where that dominates, and a part of
+ * the largest distance of the neighbouring rows is added, since a distance may pass 0. If the companion lacks a row, or
+ * has it at a time that is off by more than a quarter of the time since the event before, the two motions have
+ * different events from there on, and no digit of them is significant.
  */
 #include "api/error/event_bars.h"
 
@@ -20,8 +20,8 @@ enum { BEFORE = 6, AFTER = 2, WINDOW = BEFORE + AFTER, NEARBY = 16 };
 #define CLOSE 256   /* units in the last place of the time: least room for a distance, where events accumulate */
 #define CLOCK 1.5   /* units in the last place: the period, its multiple and the sum are rounded */
 #define ROUNDINGS 2 /* units in the last place of an event's time that run and companion share */
-/* Replace BARS_LASTING at a limit: flights of a ball have left up to 8 of these parts (dop853, all of one sign). A
- * companion shows most of them, since it steps otherwise. */
+/* In place of BARS_LASTING at a limit of events, with and without a companion: flights of a ball have left up to 8 of
+ * these parts (dop853, all of one sign). A companion shows most of them, since its steps are others. */
 #define LASTING_LIMIT 4
 #define LASTING_ALONE 8
 
@@ -85,7 +85,7 @@ static size_t significant(motus_run *r)
     return b->rows;
 }
 
-/* Returns whether no further row is significant, also since the motions themselves are too far apart. */
+/* Returns whether no further row is significant, or the motions themselves are too far apart. */
 static bool ended(const bars *b) { return b->rows_differ || !isnan(b->differences.until); }
 
 /* Returns the i-th of the rows beside which row k is judged: itself, rows before, rows after. SIZE_MAX: none. */
@@ -132,7 +132,7 @@ double event_bars_time(motus_run *r, size_t k)
 #define WHOLE_MOST 0x1p53
 enum { ENDLESS = WHOLE_COUNT + 1 };
 
-/* Judges which numbers count; one that counts events of the rule `endless`, which accumulate, is ENDLESS. */
+/* Finds which numbers only count; one that counts events of the rule `endless`, which accumulate, is ENDLESS. */
 static bool judge_whole(motus_run *r, const model_rule *endless)
 {
     const motus_system *s = r->system;
@@ -180,7 +180,7 @@ static bool action_unsure(const motus_run *r, double t, bool ended)
     return fabs(t - latest) <= off + shared(latest, events_lasting(r->events, latest), BARS_LASTING);
 }
 
-/* Finds out whether it is open which events have happened up to t. */
+/* Finds out whether it is uncertain which events have happened up to t. */
 static motus_status unsure_at(motus_run *r, double t, const double *x, const double *v, bool *unsure, motus_error *err)
 {
     const bool ended = events_ended(r->events, NULL) != EVENTS_END_NONE && t == run_time(r);
@@ -189,7 +189,7 @@ static motus_status unsure_at(motus_run *r, double t, const double *x, const dou
 }
 
 /* Tells the error of a number that only counts: 0 where the companion has the same number; INFINITY where it has
- * different events, or counts events without end. *told: the number is such a one. */
+ * different events, or counts events without end. *told: the number only counts. */
 static motus_status counts(motus_run *r, double t, const double *x, const double *v, size_t number, double *error,
                            bool *told, motus_error *err)
 {
@@ -215,8 +215,9 @@ static motus_status counts(motus_run *r, double t, const double *x, const double
     return status;
 }
 
-/* Raises an error at events: the state is late or early by what the times of events share. No number is better known
- * than the larger ones from which it was added up: a motion that sticks, or was led to a place, has their rounding. */
+/* Raises an error for what events do: the state may be late or early by the error that their times share. And no number
+ * is known better than the larger ones from which it was added up: a motion that sticks, or was led to a place, has
+ * their rounding. */
 motus_status event_bars_state(motus_run *r, double t, const double *x, const double *v, size_t number, double *error,
                               motus_error *err)
 {
@@ -236,13 +237,13 @@ motus_status event_bars_state(motus_run *r, double t, const double *x, const dou
     }
     if (status != MOTUS_OK) return status;
     const double moved = fabs(value[1] - value[0]);
-    const double part = events_turns(r->events) > 0 ? 1 : 0.5; /* the place that holds it was added up as well */
+    const double part = events_turns(r->events) > 0 ? 1 : 0.5; /* what holds it in place was added up as well */
     *error = fmax(*error, part * events_ulp(b->differences.size[number]));
     if (isfinite(moved)) *error = fmax(*error, moved);
     return MOTUS_OK;
 }
 
-/* Finds the companion's limit: its own, or what its events lead to where it has had as many as the run. */
+/* Finds the companion's limit: its own or, once it has had as many events as the run, the one to which these lead. */
 static bool other_limit(const companion *c, const events_limit *limit, events_limit *other, double way)
 {
     if (!c->events) return false;
@@ -257,7 +258,7 @@ double event_bars_limit(motus_run *r, const events_limit *limit)
     const bars *const b = r->bars;
     if (!b) return limit->error + shared(limit->t, limit->lasting, LASTING_ALONE);
     const double gone = b->differences.until, way = r->timing.h < 0 ? -1 : 1;
-    if (!isnan(gone) && way * (limit->t - gone) > limit->error) return INFINITY; /* long before it */
+    if (!isnan(gone) && way * (limit->t - gone) > limit->error) return INFINITY; /* the bars ended long before */
     if (b->why[0] || !other_limit(&b->half, limit, &other, way)) return NAN;
     return bars_part(r) * fabs(limit->t - other.t) + limit->error + shared(limit->t, limit->lasting, LASTING_LIMIT);
 }

@@ -138,7 +138,8 @@ static bool instance_open(look *l, const rule *r, size_t i)
     return open > 1 || may_happen(l, r, i, which);
 }
 
-/* Returns whether any event is open. Those that accumulate have no number, and leave no other open. */
+/* Returns whether the number of any events is uncertain. Events that accumulate have no number, and make no other
+ * uncertain. */
 static bool any_open(look *l)
 {
     const rules *rules = l->run->rules;
@@ -185,7 +186,7 @@ static bool look_at(look *l, double t, const double *x, const double *v)
     return find_box(l) && !rules->values(rules->ctx, t, l->to_x, l->to_v, l->g);
 }
 
-/* Returns whether a touch up to t has left open how often events have happened. */
+/* Returns whether a touch up to t has made it uncertain how often events have happened. */
 static bool open_before(const motus_run *r, double t)
 {
     const double way = r->timing.h < 0 ? -1 : 1;
@@ -222,8 +223,8 @@ static bool rests(look *l, size_t f)
 }
 
 /* Returns whether the rule of function f may have an event, or two, where the function has an extremum or a step ends.
- * At an extremum its direction is open, whatever rounding leaves of its slope; at the end of a step only if its slope
- * may be 0. */
+ * At an extremum its direction is not known, whatever rounding leaves of its slope; at the end of a step only if its
+ * slope may be 0. */
 static bool touches(look *l, size_t f, events_near_kind kind)
 {
     const bool level = kind == EVENTS_NEAR_EXTREMUM;

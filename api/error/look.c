@@ -2,16 +2,16 @@
  *
  * Over a step that leads from v to v', or a part of one, the integral of the force along the dense output has to be v'
  * - v; what is missing is the error that the part makes in the velocity. Gauss's rule takes the integral, at abscissae
- * that the method does not have. Interval arithmetic over all states of a part says whether some operation may pass
- * through more than points can show; such a part is halved, so that no peak and no window is too narrow to be seen.
- * Sizes are added up over the parts, because a force that pushes and then pulls shifts a motion and leaves its
- * velocity. Where the sum is too large already, the look ends, and the step is to end there as well, so that a step
- * pays for the first of many peaks. Where not all peaks can be searched for, no bar is told.
+ * that the method does not have. Interval arithmetic over all states of a part says whether some operation may do more
+ * than points can show; such a part is halved, so that no peak and no window is too narrow to be seen. Sizes are added
+ * up over the parts, because a force that pushes and then pulls shifts a motion, but leaves its velocity as it was.
+ * Once the sum is too large, the look ends, and the step is to end there as well, so that it pays for the first of many
+ * peaks only. If not all peaks can be searched for, there are no bars.
  *
  * Where a switch may stand at 0, the force has more than one value. In a run with located switches, what has happened
- * has to be a mean of what the force does along ways beside the motion, where every switch has one side, however often
- * it is written [Filippov88]. Other runs step across switches, and parts with one are not judged, however short they
- * become.
+ * has to be a mean of what the force does along ways beside the motion, on each of which a switch has one side, even if
+ * it is written several times [Filippov88]. Other runs step across switches, and parts with one are not judged, however
+ * short they become.
  */
 #include "api/error/look.h"
 
@@ -27,14 +27,14 @@ enum {
     FINE = 8,     /* halvings after which a part is left in which a switch may change its side */
     HELD = 2,     /* halvings after which ways beside the motion are taken */
     DEEP = 4,     /* halvings after which they are taken where other operations change too, as u/|u| */
-    IDLE = 4,     /* ways in succession that may not help */
-    VAIN = 32     /* steps before that is tried again, where it has failed */
+    IDLE = 4,     /* ways in succession that may bring no gain */
+    VAIN = 32     /* steps before the next try to look ahead, after one that failed */
 };
-#define NEAR 0x1p-16    /* of the way that a part may lead: how far a way is beside it */
+#define NEAR 0x1p-16    /* how far a way is beside the motion, in units of how far the part may lead */
 #define SLACK 0x1p-8    /* of the accelerations: the error of dense output */
 #define BOUNDS 12.0     /* evaluations that bounds over a step cost */
 #define SUSPICIOUS 10.0 /* times what a step may lose */
-#define PROBE_SEES 4.0  /* what a probe has to see is less than what is missing by this factor */
+#define PROBE_SEES 4.0  /* a probe has to see this many times less than what is missing */
 #define ULP 0x1p-52
 
 /* Gauss's abscissae in (0, 1) beyond the middle, less 1/2, and their weights [DLMF, table 3.5.2]. */
@@ -81,7 +81,7 @@ static bool inside(const interval *part, const interval *whole, size_t count)
     return true;
 }
 
-/* Extends an interval to the next steps, on the side to which it moves, and somewhat on both. */
+/* Extends an interval over the next steps: to the side to which it moves, and somewhat to both. */
 static interval extend(interval now, double way, double steps)
 {
     const double most = (now.high - now.low) * steps / 4, far = way * steps;
@@ -89,7 +89,7 @@ static interval extend(interval now, double way, double steps)
 }
 
 /* Returns whether nothing hides in a whole step, with the box in_x, in_v and the times t. What fits over a box fits
- * over every part of it, so many short steps need one look, at where they may lead. */
+ * over every part of it, so one look at where many short steps may lead serves them all. */
 static bool clear(witness *w, const state *from, const state *to, interval t)
 {
     const problem *const p = &w->typed->problem;
@@ -139,7 +139,7 @@ static void step_aside(const witness *w, double *x, double *v, double h, uint32_
         v[k] += (NEAR * h * w->scale[k] + SUSPICIOUS * w->allowed[look_place(w, k)]) * look_turn(way, k);
 }
 
-/* Counts a part. most: the most that is missing of it, in units of what is allowed. */
+/* Counts a part. most: the most that is missing from it, in units of what is allowed. */
 static void count_part(witness *w, const state *from, double h, double most)
 {
     if (most > w->worst && !(w->worst > FIRST)) w->start = from->t, w->length = h;
@@ -169,7 +169,7 @@ static bool integrate(witness *w, stepper *s, const state *from, double h, uint3
     return true;
 }
 
-/* Finds how much each velocity may be off in a part before another force must be what moves it. */
+/* Finds the weights: 1 over how far off each velocity may be in a part before only another force can explain it. */
 static void find_weights(witness *w, double h)
 {
     for (size_t k = 0; k < w->typed->problem.nv; k++) {
@@ -178,7 +178,7 @@ static void find_weights(witness *w, double h)
     }
 }
 
-/* Notes that too much, `room`, is missing of a part. */
+/* Notes that too much is missing from a part: `room`. */
 static void note_beside(witness *w)
 {
     double most = 0;
@@ -208,7 +208,7 @@ bool look_bound(witness *w, stepper *s)
     return true;
 }
 
-/* Adds up what is missing of a part. */
+/* Adds up what is missing from a part. */
 static bool hold(witness *w, stepper *s, const state *from, const state *to)
 {
     const double h = to->t - from->t;
@@ -241,7 +241,7 @@ static bool nearest(witness *w, stepper *s, const state *from, const state *to, 
     return true;
 }
 
-/* Adds up what is missing of a part where a switch may stand at 0: what no mean of the ways beside it does. */
+/* Adds up what is missing from a part where a switch may stand at 0: what no mean of the ways beside it explains. */
 static bool hold_beside(witness *w, stepper *s, const state *from, const state *to)
 {
     const size_t n = w->typed->problem.nv;
@@ -265,7 +265,7 @@ static bool hold_beside(witness *w, stepper *s, const state *from, const state *
     return true;
 }
 
-/* Returns whether more is missing of n places or velocities y than their errors. */
+/* Returns whether more than their errors is missing from n positions or velocities y. */
 static bool beyond_errors(const double *missing, const double *y, size_t n, double errors)
 {
     return vector_largest(missing, n) > fmax(errors, ROUNDING * vector_largest(y, n));
@@ -296,8 +296,8 @@ bool look_stirs(const witness *w, size_t k)
     return w->speed[k] <= NOTHING && w->missing[k] > NOTHING && isfinite(w->missing[k]);
 }
 
-/* Returns whether the look may end, since too much is missing. For a number that rests it may not: what is missing is
- * its size. */
+/* Returns whether the look may end because too much is missing. It may not while something is missing from a number at
+ * rest: that becomes the number's size. */
 static bool shows_enough(witness *w)
 {
     bool any = false;

@@ -1,4 +1,4 @@
-/* See witness.h. look.c finds what is missing of a step; here it is judged. */
+/* See witness.h. look.c finds what is missing from a step; here that is judged. */
 #include "api/error/look.h"
 
 #include "api/error/bars.h"
@@ -18,22 +18,22 @@ enum {
     SHORTER = 6,   /* times that a step is shortened before the force is to blame, and not the step */
     BEHIND = 3,    /* steps that the companion is led through, from the first that lacks something */
     FINEST = 24,   /* most halvings that search for what is narrow in a step */
-    RESOLVED = 3,  /* halvings that the step's own points make up for */
-    MANY = 8,      /* parts of a step, of which a force with narrow peaks needs more */
-    WIDTH = 64     /* most velocities of a run, since for more of them ways say too little */
+    RESOLVED = 3,  /* halvings up to which the step's own points resolve a piece */
+    MANY = 8,      /* parts of a step: a force that needs more has narrow peaks */
+    WIDTH = 64     /* most velocities for which ways beside the motion are taken: with more they say too little */
 };
-/* The unit of spending is one evaluation of the typed force by the interpreter. At first so many operations may be
- * spent, but at least so many evaluations; then also a part of the run's evaluations. The part suits a compiled run,
- * whose evaluation costs a thirtieth, and holds for any machine, since looks decide steps and no machine may. A series
- * of order n counts as n^2/4 evaluations. */
+/* The unit of spending is one evaluation of the typed force by the interpreter. SPEND_FIRST operations may be spent at
+ * first, but at least SPEND_LEAST evaluations; later also the part SPEND of the run's evaluations. This suits a
+ * compiled run, whose evaluation costs a thirtieth, but holds on every machine: looks decide steps, which must not
+ * depend on the machine. A series of order n counts as n^2/4 evaluations. */
 #define SPEND_FIRST 4e6   /* operations */
 #define SPEND_OF_MANY 1e6 /* operations, where the run is one of many */
 #define SPEND_LEAST 200.0
 #define SPEND 0.05
 #define LONGER 1.25 /* a step longer than all before by this factor is looked at, whatever was spent */
-/* Operations for one look at a step; for one probe; for one probe that leads the companion; and, beside the count, for
- * steps that were rightly refused and those that follow up to their ends. Looks at sides are counted by themselves, and
- * may cost as much. */
+/* Most operations: of one look at a step; of one probe; of one probe that leads the companion; and, without being
+ * counted as spent, of steps that were rightly refused and those that follow up to their ends. Looks at sides have a
+ * count of their own, with the same limit. */
 #define SPEND_STEP 2e7
 #define SPEND_PROBE 2e7
 #define SPEND_LEAD 2e6
@@ -41,12 +41,12 @@ enum {
 #define SPARED_OF_MANY 1e8
 #define ROOM 0.75 /* of a refused step: the next one is shorter */
 #define PART_OF_BARS 0x1p-4
-/* Where the companion is left as it is: the error of one step is at most twice the largest that the companion has shown
- * by then, unless it hides. There the probe has to be far better than the step. */
+/* For a witness that leaves the companion as it is. The error of one step is at most twice the largest that the
+ * companion has shown by then, unless the step hides it. The probe has to be far better than the step. */
 #define LEFT_BARS 8.0
 #define LEFT_TOLERANCE 0x1p-10
-#define SHOWN 0x1p-16 /* part of what is missing that may be hidden */
-#define MOSTLY 0.5    /* such a part in steps of located runs; less is what the companion sees, too */
+#define SHOWN 0x1p-16 /* of what is missing: a step that hides no more than this part shows it */
+#define MOSTLY 0.5    /* the same where the companion sees the rest, too */
 #define PROBE "dop853"
 #define PROBE_TOLERANCE 1e-10
 
@@ -86,7 +86,7 @@ static witness *make(const motus_run *r, const differences *seen)
 static stepper_verdict inspect(void *ctx, stepper *);
 static bool inspect_piece(void *ctx, stepper *, double until);
 
-/* Finds what can hide. It lives in the system's arena, for all runs. */
+/* Finds the operations that can hide something. They stay in the system's arena, for all its runs. */
 static bool find_bends(motus_system *s)
 {
     model *const m = s->model;
@@ -195,7 +195,7 @@ double witness_looked(const motus_run *r)
 
 /* ---- judging ---- */
 
-/* Finds what a step may lose of each velocity. */
+/* Finds how much of each velocity a step may lose. */
 static void allow(witness *w, const problem *p)
 {
     const state *const from = &w->at[FROM], *const to = &w->at[TO];
@@ -284,13 +284,13 @@ bool witness_lead(witness *w, double t, double until, double *x, double *v)
     return true;
 }
 
-/* Returns whether the probe is farther from the end of the step than so many times the errors. */
+/* Returns whether the probe is farther from the end of the step than `times` times the errors. */
 static bool beyond_bars(const witness *w, double times)
 {
     return look_beyond_velocities(w, w->dv, times) || look_beyond_places(w, w->dx, times);
 }
 
-/* Returns whether the stepper is within a step from whose end a probe has differed. */
+/* Returns whether the stepper is within a step whose end a probe has contradicted. */
 static bool known(const witness *w, const stepper *s)
 {
     return !isnan(w->until) && (w->until - (stepper_time(s) - stepper_last_step(s))) * stepper_last_step(s) > 0;
@@ -305,8 +305,8 @@ static void earn(witness *w, const stepper *s)
     w->earned += SPEND * each;
 }
 
-/* Returns how much need not be counted: a force that has hidden something once may do so again, so within bounds, and
- * beyond them up to the cost of the run, spending is free from then on. */
+/* Returns how much spending need not be counted. A force that has hidden something once may do so again; from then on
+ * spending is free up to `most_spared`, plus the cost of the run itself. */
 static double most_spared(const witness *w) { return w->probes ? 0 : w->most_spared + (w->earned - w->first) / SPEND; }
 
 static void spare(witness *w, double spent)
@@ -356,8 +356,8 @@ static bool see_ends(witness *w, stepper *s)
     return stepper_sync(s, to->x, to->v, NULL, NULL) == MOTUS_OK;
 }
 
-/* Finds the sizes of numbers that rest and of which something is missing; they may lose nothing, so that without a size
- * the least would count as much as all. Returns whether there are any. */
+/* Gives sizes to the numbers at rest from which something is missing: at rest they may lose nothing, so that without a
+ * size the least amount would be too much. Returns whether there are any. */
 static bool feels(witness *w)
 {
     bool more = false;
@@ -369,7 +369,7 @@ static bool feels(witness *w)
     return more;
 }
 
-/* Adds up what is missing of the whole step. */
+/* Adds up what is missing from the whole step. */
 static bool look_at_all(witness *w, stepper *s, bool whole)
 {
     w->whole = whole;
@@ -387,7 +387,7 @@ static bool look_at_all(witness *w, stepper *s, bool whole)
     return true;
 }
 
-/* Returns whether Gauss's rule over the whole step misses such a part of what is missing. */
+/* Returns whether Gauss's rule over the whole step misses more than `part` of what is missing. */
 static bool hides(witness *w, stepper *s, double part)
 {
     double most = 0, hidden = 0;
@@ -399,8 +399,8 @@ static bool hides(witness *w, stepper *s, double part)
     return hidden > part * most;
 }
 
-/* Returns whether a step lacks something that it does not show, or leads across a switch, which the companion may do at
- * the same time. In runs with events both know of their switches. */
+/* Returns whether a step lacks something that it does not show, or leads across a switch, since the companion may cross
+ * it at the same time. (In runs with events both know their switches.) */
 static bool lacks(witness *w, stepper *s)
 {
     if (look_fits(w, w->bends, &w->at[FROM], &w->at[TO]) || !look_at_all(w, s, true)) return false;
@@ -409,7 +409,7 @@ static bool lacks(witness *w, stepper *s)
     return w->parts > 1 && look_beyond_velocities(w, w->missing, PART_OF_BARS) && hides(w, s, SHOWN);
 }
 
-/* Compares a step that stands with the force; what it lacks moves the companion, which waits for it. */
+/* Compares the force with a step that is not to be refused. What the step lacks is to move the companion. */
 static void compare(witness *w, stepper *s, double until)
 {
     const state *const from = &w->at[FROM], *const to = &w->at[TO];
@@ -422,8 +422,8 @@ static void compare(witness *w, stepper *s, double until)
     w->moves = look_beyond_velocities(w, w->dv, PART_OF_BARS) || look_beyond_places(w, w->dx, PART_OF_BARS);
 }
 
-/* Returns how many steps are to be left aside before another look is affordable. The number varies, for motions that
- * repeat themselves. */
+/* Returns how many steps to skip before another look is affordable. The number varies, so that looks do not follow the
+ * period of a motion. */
 static int64_t rest_of(const witness *w)
 {
     const double owes = w->peaks && w->spared < most_spared(w) ? 0 : w->spent - w->earned;
@@ -448,7 +448,7 @@ static stepper_verdict inspect_steady(witness *w, stepper *s, double until)
     return (stepper_verdict){.rest = w->rested, .halt = w->moves};
 }
 
-/* Returns the size of the next step, up to the first part that lacks much, where a step lacks too much. */
+/* Returns the size to try after a step that lacks too much: up to the first part that lacks much. */
 static double shorter(const witness *w, double whole)
 {
     const double before = w->start - w->at[FROM].t, first = fabs(before) > fabs(w->length) ? before : w->length;
@@ -460,7 +460,7 @@ static double object(witness *w, stepper *s, double whole)
 {
     const state *const from = &w->at[FROM];
     const double size = shorter(w, whole);
-    /* where a switch stands at 0 at the start of a step, every step is off */
+    /* where a switch stands at 0 at the start, steps of every size are off */
     if (w->tries >= (w->beside ? SHORTER : TRIES)) {
         if (w->beside || !w->kinked) w->differs = from->t, w->held |= w->beside, w->objected = true;
         return 0;
@@ -479,7 +479,8 @@ static double object(witness *w, stepper *s, double whole)
     return 0;
 }
 
-/* Lets a step stand in which nothing was found, unless the look ended before it had seen all of narrow peaks. */
+/* Lets a step stand in which nothing was found, unless there are narrow peaks and the look could not afford to see them
+ * all. */
 static double pass(witness *w, double whole)
 {
     const bool many = w->parts > MANY && may_be_peak(w), lost = many && w->exhausted;
@@ -491,8 +492,8 @@ static double pass(witness *w, double whole)
 
 static double earlier(double a, double b, double way) { return way < 0 ? fmax(a, b) : fmin(a, b); }
 
-/* Looks for the first peak that the step hides; for that no probe is asked, so that a step pays for the first of many
- * peaks. *again: the size of the next step; 0: nothing is hidden. False: the look failed. */
+/* Looks for the first peak that the step hides, without a probe, so that a step pays for the first of many peaks only.
+ * *again: the size of the next step; 0: nothing is hidden. False: the look failed. */
 static bool judge_first(witness *w, stepper *s, double *again)
 {
     state *const to = &w->at[TO];
@@ -522,8 +523,8 @@ static void go_on(witness *w)
     memcpy(last->v, to->v, v);
 }
 
-/* Returns whether an earlier step decides: it has shown nothing before the peak, and a long step leaps over it. *again:
- * the size of the next step; 0: the step stands. */
+/* Returns whether a peak that an earlier step found decides: before the peak nothing is missing, and a step that leaps
+ * over it is too long. *again: the size of the next step; 0: the step stands. */
 static bool meets_peak(witness *w, double *again)
 {
     const double from = w->at[FROM].t, to = w->at[TO].t, sign = to < from ? -1 : 1, whole = fabs(to - from),
@@ -552,8 +553,8 @@ static bool find_shortest(witness *w, stepper *s, const state *from, const state
            find_shortest(w, s, from, middle, depth + 1, deepest) && find_shortest(w, s, middle, to, depth + 1, deepest);
 }
 
-/* Returns whether the run's own points resolve what the force does besides, where a switch stands at 0. There no
- * integral tells what is missing: what lets go a state that is held is found at these points. */
+/* Returns whether, with a switch at 0, the run's own points resolve what else the force does. No integral tells there
+ * what is missing: whatever frees a state that is held must be found at these points. */
 static bool resolves(witness *w, stepper *s)
 {
     int deepest = 0;
@@ -565,7 +566,7 @@ static bool resolves(witness *w, stepper *s)
 }
 
 /* Returns the size by which a step is to be taken again; 0: the step stands. A located run may end the step at a
- * switch, behind which the force is another one: what is missing from there on is open. */
+ * switch, after which it has another force: what is missing from there on is not known. */
 static double judge(witness *w, stepper *s)
 {
     const state *const from = &w->at[FROM], *const to = &w->at[TO];
@@ -606,8 +607,8 @@ static stepper_verdict inspect(void *ctx, stepper *s)
     return (stepper_verdict){.again = again};
 }
 
-/* Looks at the sides of switches in a step, up to where one changes: they are those of the typed force, unless a probe
- * in shorter steps shows that they are not. */
+/* Looks at the sides of switches in a step, up to where one changes. They are those of the typed force unless a probe
+ * in shorter steps shows otherwise. */
 static void inspect_sides(witness *w, stepper *s, double until)
 {
     state *const to = &w->at[TO];
@@ -629,8 +630,7 @@ static void inspect_sides(witness *w, stepper *s, double until)
     w->sides += w->spent - spent, w->spent = spent;
 }
 
-/* Judges a step up to the end of a piece, since behind it the step has not happened. What is missing before moves the
- * companion. */
+/* Judges a step up to `until`, after which it does not count. What is missing up to there moves the companion. */
 static void judge_piece(witness *w, stepper *s, double until)
 {
     const double h = until - w->at[FROM].t;

@@ -5,11 +5,11 @@
  * places at which they evaluate it, they agree on a wrong motion. The witness shares none of that: it evaluates the
  * typed equations by the tape, along the dense output of every step that it looks at.
  *
- * Where it finds something missing of a step, a probe looks more closely: a stepper of the method that takes the step
- * once more, in as many parts as the force asks for. Where the ends are farther apart than the run's tolerance allows,
- * the run takes the step again. Where they are farther apart than the errors told so far, the companion is moved by the
- * difference, so that the bars cover it from then on. Steps that no error control refuses stand; in their place a probe
- * leads the companion through what they do not show, and across switches.
+ * Where it finds something missing from a step, a probe looks more closely: a stepper of the method that takes the step
+ * once more, in as many parts as the force asks for. If the ends are farther apart than the run's tolerance allows, the
+ * run takes the step again. If they are farther apart than the errors so far, the companion is moved by the difference,
+ * so that the bars cover it from then on. Steps that no error control refuses stand; in their place a probe leads the
+ * companion through what they do not show, and across switches.
  */
 #ifndef API_ERROR_WITNESS_H
 #define API_ERROR_WITNESS_H

@@ -1,5 +1,5 @@
-/* When a run takes which machine. A long run begins in the interpreter while the compiler works, and goes on compiled
- * at the end of a step, so that nobody waits for a compiler.
+/* Which machine a run takes, and when. A long run begins in the interpreter while the compiler works, and goes on
+ * compiled at the end of a step, so that nobody waits for a compiler.
  *
  * Invariant: the bits, the counters and the errors do not depend on when a run goes over, nor on whether it does.
  */
@@ -8,7 +8,7 @@
 
 #include "api/motion/run.h"
 
-/* Chooses the machine of a run that takes about so many steps; 0: the number is not known. "compiled" waits for the
+/* Chooses the machine of a run that takes about `steps` steps; 0: the number is not known. "compiled" waits for the
  * compiler, because the caller asks for it. */
 motus_status later_choose(motus_run *, const char *wanted, double steps, motus_error *);
 /* Returns how many steps the run may take before it calls later_look; 0 or less: it calls now. */
@@ -19,8 +19,8 @@ motus_status later_look(motus_run *, motus_error *);
 void later_hurry(motus_run *);
 /* Forgets the compiler: the run ends, or cannot go on compiled. */
 void later_end(motus_run *);
-/* For tests, before the first step: begins in the interpreter and goes on compiled after exactly so many steps, at
- * least 1; there the run waits for the compiler. */
+/* For tests, before the first step: begins in the interpreter and goes on compiled after exactly `step` steps, at least
+ * 1; there the run waits for the compiler. */
 motus_status later_at(motus_run *, int64_t step, motus_error *);
 
 #endif

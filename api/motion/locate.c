@@ -136,7 +136,7 @@ bool locate_bind(motus_run *r) { return held_bind(r->locate->held, r->locate->si
 
 int64_t locate_steps(const motus_run *r) { return r->locate->steps; }
 
-/* Lets the stepper go on from `at`, so many steps of the leg after its start. */
+/* Lets the stepper go on from `at`, which is `steps` steps after the start of the leg. */
 static motus_status resume(motus_run *r, const place *at, int64_t steps, motus_error *err)
 {
     r->locate->steps = steps;

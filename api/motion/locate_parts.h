@@ -48,7 +48,7 @@ struct locate {
 };
 
 /* locate_place.c: states, trial steps, roots */
-size_t locate_numbers(const problem *, size_t count); /* of a place with so many switches */
+size_t locate_numbers(const problem *, size_t count); /* of a place with `count` switches */
 void locate_copy(place *to, const place *from, const problem *, size_t count);
 void locate_swap(place *, place *);
 /* Reads the stepper's state and the arguments of all switches there. */

@@ -53,7 +53,7 @@ struct motus_run {
     machine machine;
     const char *note;
     const char *not_located; /* why switches are not located; "": they are, or the model has none */
-    const char *cut;         /* what events that assign make of the method's geometry; "" */
+    const char *cut;         /* how events that assign affect the method's geometry; "" */
     motus_allocator allocator;
     chosen chosen;
     const motus_method *card;

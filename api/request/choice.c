@@ -76,7 +76,7 @@ motus_status choice_weigh(motus_system *s, weight *out, motus_error *err)
     return s->weighed ? MOTUS_OK : fail(err, MOTUS_MEMORY, "no memory to count the operations of the equations");
 }
 
-/* Counts half of the stages before a stage, since a stage sums about so many. */
+/* Counts half of the stages for each stage, since a stage sums about that many. */
 double choice_evaluation(const problem *p, const weight *w, const motus_method *card)
 {
     return w->values + (1 + card->stages / 2.0) * (double)(p->traits.velocity ? p->nx + p->nv : p->nv);

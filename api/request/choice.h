@@ -24,7 +24,7 @@ motus_status choice_weigh(motus_system *, weight *, motus_error *);
 double choice_evaluation(const problem *, const weight *, const motus_method *);
 double choice_expansion(const problem *, const weight *, double order);
 double choice_step(const problem *, const weight *, const chosen *, const motus_method *);
-/* Divides the work of so many steps by that of the compiler. From 1 on compiling pays; from CHOICE_KEPT on it pays to
+/* Divides the work of `steps` steps by that of the compiler. From 1 on compiling pays; from CHOICE_KEPT on it pays to
  * search for an object that was compiled before. */
 double choice_worth(const motus_system *, const chosen *, const motus_method *, double steps);
 #define CHOICE_KEPT 0.01

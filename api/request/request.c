@@ -1,7 +1,7 @@
 /* See request.h.
  *
  * Invariant: a number that would change nothing is refused: a step where the method adapts its steps, a tolerance where
- * it does not. What the model says of its own method is left aside where the caller names another one, or wants an
+ * it does not. What the model says of its own method is ignored where the caller names another one, or wants an
  * accuracy that the model does not set; its step alone serves where a method has none.
  */
 #include "api/request/request.h"

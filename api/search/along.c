@@ -17,7 +17,7 @@
 #define STAGES 6
 enum { LOOKS_FEW = 16, LOOKS_EVEN = 4 }; /* LOOKS_EVEN: looks before their interval doubles */
 #define LOOK 80                          /* evaluations for the rates at one state */
-/* So many operations take less than a millisecond in the interpreter. Every system affords the rates at two states;
+/* This many operations take less than a millisecond in the interpreter. Every system affords the rates at two states;
  * more evaluations than EVALUATIONS_MOST tell little that is new. */
 #define OPERATIONS 6e5
 #define EVALUATIONS_LEAST (2 * LOOK)

@@ -23,7 +23,7 @@
 
 typedef enum rounding { NEAR, DOWN } rounding;
 
-/* Rounds x > 0 to so many digits: to the double of that decimal. */
+/* Rounds x > 0 to `count` digits: to the double of that decimal. */
 static double rounded(double x, int count, rounding way)
 {
     int exponent;
@@ -67,7 +67,7 @@ static void of_swings(const motus_system *s, const draft_scales *d, const follow
     snprintf(set->step_why, sizeof set->step_why, "its fastest change");
 }
 
-/* Proposes so many equal steps, which settle() counts; shorter ones where the draft was cut short. */
+/* Proposes `steps` equal steps, which settle() counts; shorter ones where the draft was cut short. */
 static void even_steps(const followed *m, int steps, double rate, proposal *p)
 {
     p->step = p->duration / steps;
@@ -110,7 +110,7 @@ static void of_settling(const draft_scales *d, const followed *m, proposal *p, m
              decimal(d->from + d->way * rounded(m->elapsed, 2, DOWN), to));
 }
 
-/* Proposes the length of a flight. number: of v; its name is told where there are several. */
+/* Proposes the length of a flight. number: of v; its name is shown if there are several. */
 static void of_flight(const motus_system *s, double duration, bool lands, size_t number, const followed *m, double rate,
                       proposal *p, motus_settings *set)
 {

@@ -18,7 +18,7 @@ typedef struct swings {
     uint32_t changes, since, steps; /* steps before the first change, and from there to the last */
 } swings;
 
-/* Notes the number's value at a time, after so many steps. */
+/* Notes the number's value at a time. taken: the steps before. */
 void swings_note(swings *, double time, uint32_t taken, double value);
 /* Returns the mean time from a change of sign to the next but one; 0: the number does not swing. */
 double swings_length(const swings *);

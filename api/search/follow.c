@@ -1,8 +1,8 @@
 /* A motion followed by the row bs32, with its turning points counted.
  *
- * Times of events lie within a step, by the cubic through its ends. A number swings where its velocity changes sign
- * again and again; one that only goes on, as a pendulum that turns over, where its acceleration does. Invariant: the
- * bits are the same on every machine, and the system does not change.
+ * Times of events lie within a step, by the cubic through its ends. A number swings if its velocity changes sign again
+ * and again; one that only goes on, like a pendulum that turns over, if its acceleration does. Invariant: the bits are
+ * the same on every machine, and the system does not change.
  */
 #include "api/search/draft.h"
 

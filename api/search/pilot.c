@@ -18,7 +18,7 @@
 #include <math.h>
 #include <stdio.h>
 
-/* FAR: a candidate stops at so many times the work of the best. CHUNK: steps between two looks at that. */
+/* FAR: a candidate stops at this many times the work of the best. CHUNK: steps between two looks at that. */
 enum { STEPS = 256, FAR = 4, CHUNK = 16 };
 
 /* The first candidate admits every force. Forces that are not smooth have candidates of low order. */

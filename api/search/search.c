@@ -1,7 +1,7 @@
 /* See accuracy.h.
  *
  * The error of the answer is proportional to the tolerance, or to a power of the step, up to a factor that no formula
- * knows: what the motion makes of errors, and how they cancel. So one trial tells the size of the next. A trial that is
+ * knows: how the motion amplifies errors, and how they cancel. So one trial tells the size of the next. A trial that is
  * far off is not taken to its end; its bar there is guessed, with the square of the time.
  *
  * Where bars no longer fall with the tolerance, rounding decides, and no tolerance helps. One trial does not prove

@@ -23,11 +23,11 @@ enum {
     FINER = 3,        /* halvings of all further steps, while these take at most 1/SPARE of FAR_STEPS */
     SPARE = 8,
     DEPTH = 20,      /* most halvings of a step that resolves too little */
-    KINKED_LEAST = 3 /* so many rates of a formula with kinks must not be 0: one state may lie on a kink */
+    KINKED_LEAST = 3 /* this many rates of a formula with kinks must not be 0: one state may lie on a kink */
 };
 #define METHOD "rk4"
 #define STEP 0.1     /* as a part of the reciprocal of the fastest rate */
-#define APART 16     /* the rate may be off by so many times the difference of the runs */
+#define APART 16     /* the rate may be off by this many times the difference of the runs */
 #define FADE 0.25    /* of the known difference after each step: near a kink each run meets it at its own time */
 #define JUMP 1e-4    /* of the sizes of an invariant's terms: a larger change over a few steps is a jump */
 #define WORK_MAX 4e6 /* operations */

@@ -173,7 +173,7 @@ motus_status shadow_numbers(const motus_system *from, motus_system *to, motus_er
 /* ---- located.c: systems whose runs end a step wherever a switch of the force changes its side ----
  *
  * A located system is read from the text of another, with modes for the sides of its switches. It has the motion, the
- * columns and their order of that system; x has the sides behind the positions, and its rules change them. */
+ * columns and their order of that system; x has the sides after the positions, and its rules change them. */
 
 /* The switches of a system with more of them are not located unless asked for, since each costs time in every step. */
 enum { LOCATED_MOST = 64 };

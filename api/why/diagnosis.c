@@ -29,7 +29,7 @@ enum {
 #define TRIED_TOLERANCE 1e-9
 #define NEAR_BOUND 4.0  /* steps within this factor of the stability limit, both ways, are bounded by it */
 #define UNBOUNDED 500.0 /* step times rate: no bound of stability is as large */
-/* the model is stiff if an implicit method can take steps of at least so many times the stability limit */
+/* the model is stiff if an implicit method can take steps of at least this many times the stability limit */
 #define LONGER 10.0
 #define AGREES \
     1e-2               /* largest difference between steps that serve and half of them, relative to the largest

@@ -10,7 +10,7 @@
 #include "api/system/system.h"
 #include "core/stepper.h"
 
-/* Returns whether the run of a definition comes to its end within so many steps. Rooms above supply it. */
+/* Returns whether the run of a definition comes to its end within `steps` steps. Rooms above supply it. */
 typedef bool diagnosis_leads(motus_system *, const motus_run_def *, int64_t steps);
 
 /* The run whose steps are judged. */

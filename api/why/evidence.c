@@ -228,8 +228,8 @@ static bool look_back(evidence *e, samples *s, evidence_ahead *out)
     return true;
 }
 
-/* Looks ahead from a state by at most so many controlled steps over a time `span`; where they come as far as `past`,
- * the motion goes on. UNKNOWN with a time: an encounter. */
+/* Looks ahead from a state by at most `steps` controlled steps over a time `span`; if they come as far as `past`, the
+ * motion goes on. UNKNOWN with a time: an encounter. */
 static evidence_ahead look_from(evidence *e, double t, const double *x, const double *v, double span, double past,
                                 double tolerance, int64_t steps, samples *s)
 {

@@ -51,7 +51,7 @@ void trial_end(trial *);
 /* Takes one step towards `until`, in the trial's time. `arrived`: the step ended there. */
 motus_status trial_step(trial *, double until, bool *arrived);
 
-/* Where at most so many steps lead. */
+/* Where a trial with a limited number of steps leads. */
 typedef struct trial_course {
     motus_status status; /* MOTUS_STEPS: the steps were too few */
     int64_t steps;

@@ -44,7 +44,7 @@ motus_status segments_end_block(segments *, uint64_t block, motus_error *);
 /* Writes to the disk what this process has appended, and closes its segment. */
 motus_status segments_finish(segments *, motus_error *);
 
-/* Writes the table, with `last` behind its rows, and removes the segments. Call it when all processes have finished. */
+/* Writes the table, with `last` after its rows, and removes the segments. Call it when all processes have finished. */
 motus_status segments_join(segments *, const char *last, stop_progress *, motus_error *);
 
 #endif

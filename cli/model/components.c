@@ -32,7 +32,7 @@ static motus_status set_one(motus_system *s, const char *name, size_t count, siz
     return motus_system_set(s, name, numbers, count, err);
 }
 
-/* Reads x, y, z or 1, 2, …, with blanks behind it. Returns the place, from 0; SIZE_MAX: it is none of them. */
+/* Reads x, y, z or 1, 2, …, with blanks after it. Returns the place, from 0; SIZE_MAX: it is none of them. */
 static size_t place(const char *letter, size_t length)
 {
     while (length > 0 && letter[length - 1] == ' ') length--;

@@ -10,7 +10,7 @@ typedef struct csv {
     const load *model;
     size_t *columns; /* the columns of the model, in the order of the file */
     size_t count;
-    bool errors; /* behind them come the error of every column but t, and `significant` */
+    bool errors; /* after them come the error of every column but t, and `significant` */
     char *line;  /* memory for one row */
     int64_t rows;
 } csv;
@@ -22,7 +22,7 @@ motus_status csv_begin(csv *, file_out *, const options *, const motus_run *, mo
 motus_status csv_names(csv *, file_out *, motus_error *);
 /* Writes one row; `context` is a csv. It is the `take` of a walk_observer. */
 motus_status csv_row(void *context, const double *values, motus_error *);
-/* Returns whether every value has a significant digit, by the errors behind the values. */
+/* Returns whether every value has a significant digit, by the errors after the values. */
 bool csv_significant(const csv *, const double *values);
 /* Writes both sides of a jump. It is the `jump` of a walk_observer. */
 motus_status csv_jump(void *context, const double *before, const double *after, motus_error *err);
@@ -30,7 +30,7 @@ void csv_free(csv *);
 
 /* Writes the comment with the command and the run's method. */
 motus_status csv_comment(file_out *, const options *, const motus_run *, motus_error *);
-/* Writes numbers, each behind a comma. */
+/* Writes numbers, each after a comma. */
 motus_status csv_numbers(file_out *, const double *, size_t count, motus_error *);
 /* Writes the name of a column, in quotes if it has a comma or a quote. */
 motus_status csv_name(file_out *, const char *name, motus_error *);

@@ -14,7 +14,7 @@ typedef struct job {
     file_out *file;
     motus_run *run;
     size_t *columns;
-    double *values; /* on arrival, and behind them, as the action left them */
+    double *values; /* on arrival, and after them, as the action left them */
     size_t count;
     bool errors; /* the errors of times are known */
 } job;

@@ -57,7 +57,7 @@ static bool cut(char *text, const char *end, const char *what)
     return last;
 }
 
-/* Reads the shard and the number of trajectories behind these words, and removes the shard from the head, which becomes
+/* Reads the shard and the number of trajectories after these words, and removes the shard from the head, which becomes
  * that of the whole sweep. Returns false if the head does not have them. */
 static bool take_shard(part *p, const char *its, const char *trajectories, const char *before, const char *after)
 {

@@ -20,14 +20,14 @@ typedef struct part {
     const char *its;  /* the end of `head` that all shards of a sweep share */
     uint64_t at;      /* where the first row begins that has not been copied */
     uint64_t checked; /* its bytes match their checks up to here; UINT64_MAX: it has no checks */
-    bool broken;      /* the bytes behind `checked` do not match their checks */
+    bool broken;      /* the bytes after `checked` do not match their checks */
 } part;
 
 /* Reads the head. Call part_close() in any case. */
 motus_status part_open(part *, const char *path, motus_error *);
 /* Copies the rows of a block to a file, unless the part is an archive. The blocks come in their order. */
 motus_status part_copy(part *, uint64_t block, file_out *, motus_error *);
-/* Checks that the file ends behind its last block. */
+/* Checks that the file ends after its last block. */
 motus_status part_end(part *, motus_error *);
 void part_close(part *);
 

@@ -47,7 +47,7 @@ typedef struct sweep {
     /* The columns of a row: the number of the trajectory, varied numbers, records; with --errors, the errors of the
      * records that have one, and whether any digit is significant; `ended`, if it is recorded; stopped, stopped_by. */
     size_t columns;
-    /* The columns of the table of events, and behind them those that the picture of a section needs. */
+    /* The columns of the table of events, and after them those that the picture of a section needs. */
     size_t *event_columns, event_columns_count, event_columns_more;
     bool errors;
     char *head; /* the lines above the rows of a CSV; of a .npy, the text of the file beside it */
@@ -223,7 +223,7 @@ motus_status sweep_resume(sweep_file *, uint64_t end, motus_error *);
  *
  * Invariant: the events of a trajectory are written before its row. */
 
-/* The line behind the events, with the number of trajectories whose events are above it. */
+/* The line after the events, with the number of trajectories whose events are above it. */
 #define SWEEP_EVENTS_WORDS "# end of the events of trajectories: "
 #define SWEEP_EVENTS_END SWEEP_EVENTS_WORDS "%" PRIu64 "\n"
 enum { SWEEP_EVENTS_LAST = sizeof SWEEP_EVENTS_END + 20 };

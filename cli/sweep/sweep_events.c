@@ -157,7 +157,7 @@ static motus_status damaged(const sweep_events *f, motus_error *err)
                     "%s is damaged: after byte %" PRIu64 ", it is not as it was written", f->path, f->checks.end);
 }
 
-/* Reads what follows the head, and sets f->bytes behind the complete events of the first `rows` trajectories. All of
+/* Reads what follows the head, and sets f->bytes after the complete events of the first `rows` trajectories. All of
  * them are there if an event of a later trajectory or the last line follows. */
 static motus_status find_rows(sweep_events *f, uint64_t rows, FILE *in, motus_error *err)
 {
@@ -189,7 +189,7 @@ static motus_status find_rows(sweep_events *f, uint64_t rows, FILE *in, motus_er
     return all ? MOTUS_OK : shortened(f, rows, err);
 }
 
-/* Sets f->bytes behind the events of the first `rows` trajectories, or to 0 if the head is incomplete. */
+/* Sets f->bytes after the events of the first `rows` trajectories, or to 0 if the head is incomplete. */
 static motus_status find_end(sweep_events *f, uint64_t rows, FILE *in, motus_error *err)
 {
     char *line = NULL;

@@ -1,7 +1,7 @@
 /* The file of a sweep's rows.
  *
  * Invariant: however the program ends, the file has its head and complete rows; only a kill or a power cut may leave an
- * incomplete last row, which --resume removes. After a failed write the file is cut behind its last complete row. The
+ * incomplete last row, which --resume removes. After a failed write the file is cut after its last complete row. The
  * head of a .npy has the number of rows and is written after them. The check of a row (checks.h) is written after the
  * row; the file of checks exists before the first row.
  */

@@ -121,7 +121,7 @@ motus_status sweep_records_read(sweep_records *r, const load *m, const char *lis
     for (size_t i = 0; !status && i < items.count; i++)
         status = one(r, m, items.text + (items.items[i] - items.text), err);
     words_free(&items);
-    /* SWEEP_REACHED and SWEEP_TOLERANCE, behind the others */
+    /* SWEEP_REACHED and SWEEP_TOLERANCE, after the others */
     if (!status) status = add(r, MOTUS_REDUCE_ACCURACY, 0, 1, err);
     if (!status) status = add(r, MOTUS_REDUCE_TOLERANCE, 0, 1, err);
     if (!status) r->count -= SWEEP_JUDGED;

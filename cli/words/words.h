@@ -23,7 +23,7 @@ void words_free(options_list *);
 /* Reads a decimal number, with or without a sign, if the text is nothing else. The number may be infinite. */
 bool typed_decimal(const char *, double *);
 #define TYPED_COUNT_MAX 9e18
-/* Reads an integer from 1 to INT64_MAX, as 7 or 1e6; *rest is the text behind it. */
+/* Reads an integer from 1 to INT64_MAX, as 7 or 1e6; *rest is the text after it. */
 bool typed_count(const char *, int64_t *, const char **rest);
 /* Reads an integer from 0 to 2^64 - 1. */
 bool typed_seed(const char *, uint64_t *);

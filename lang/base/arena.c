@@ -1,6 +1,6 @@
 /* Memory of one model: blocks that double in size, each filled from the front.
  *
- * Invariant: everything between a block's `used` and its `size` is still zero, as the hooks gave it.
+ * Invariant: everything between a block's `used` and its `size` is still zero, as take() gave it.
  */
 #include "lang/base/arena.h"
 

@@ -75,7 +75,7 @@ static interval corners(operation op, interval a, interval b)
     return r;
 }
 
-/* Bounds a power. A base that is 0 or negative has one where the exponent is positive or an integer. */
+/* Bounds a power. 0 has powers with a positive exponent, a negative base those with an integer. */
 static interval power(interval a, interval b)
 {
     const bool whole = single(b) && b.low == floor(b.low), even = whole && b.low == 2 * floor(b.low / 2);

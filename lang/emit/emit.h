@@ -51,7 +51,7 @@ typedef struct emit {
     /* loops may take several values of their index at once, by machine/text/index_lanes.h */
     bool vectors;
     bool uses_vectors; /* some loop takes several values of its index at once */
-    /* the next program is in Taylor series of so many numbers; 0: it is not */
+    /* how many numbers the Taylor series of the next program have; 0: it is not in series */
     int series;
     uint64_t used_series;
     bool series_may_be_wide; /* lanes of series may run along an index of families */
@@ -65,8 +65,8 @@ typedef struct emit {
     const double *pool;
     emit_assumed *assumed;
     uint32_t assumed_count, assumed_room;
-    /* sums that take each pair once: at most so many side by side, over these cells. `own` is room for 8 numbers a sum
-     * and cell; NULL: they take every pair twice */
+    /* sums that take each pair once: how many at most are side by side, and their cells. `own` is room for 8 numbers a
+     * sum and cell; NULL: they take every pair twice */
     uint32_t pair_sums;
     range pair_range;
     uint32_t terms; /* how many values depend on time alone: T[0 … terms) */
@@ -80,7 +80,7 @@ typedef struct emit {
  *     NAME_terms(pool, q, u, reals t, T)                what depends on time alone, at several times; only with
  *                                                       `terms`, and where e->terms > 0
  *     NAME(pool, q, u, w, own, n, t, x, v, p, a)        in series: coefficient n of the outputs, as series_pass of
- *                                                       lang/tape/ describes it; p: the memory, returned behind the end
+ *                                                       lang/tape/ describes it; p: the memory, returned past its end
  *     NAME(pool, q, u, w, own, t, T, x, v, a, out)      outputs, from states; windowed: and `from`, `to`, `move` of
  *                                                       machine/text/window.h; along: and dx, dv
  * The text around it defines real, reals, MANY(a double) → reals and AT(array, element); with `vectors` also WIDTH, how

@@ -10,7 +10,7 @@ bool hull_find(model *, model_state *);
  * already. */
 bool hull_mark(model *, const model_state *, const statement *, const int64_t first[], const int64_t last[],
                uint8_t *map, uint8_t as, bool once);
-/* Complains that a line has not as many indices as its state. Returns false. */
+/* Complains that a line does not have as many indices as its state. Returns false. */
 bool hull_indices_wrong(model *, const model_state *, span at);
 
 #endif

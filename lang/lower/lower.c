@@ -43,7 +43,7 @@ node lower_scalar(lowering *l, const tree *t, const char *what)
     return failed(l) ? 0 : v.item[0];
 }
 
-/* Lowers a matrix [[2, -1], [-1, 2]]: rows of numbers [18]. */
+/* Lowers a matrix, [[2, -1], [-1, 2]], by rule [18]: rows of numbers. */
 value lower_matrix(lowering *l, const tree *t)
 {
     const uint32_t columns = t->item[0]->count;

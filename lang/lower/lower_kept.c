@@ -73,7 +73,7 @@ static value kept_value(lowering *l, const tree *t, const model_rule *rule)
     lowering inner = *l;
     inner.place = PLACE_EVENT;
     inner.what = "what an event keeps";
-    inner.levels = rule->statement->loop_count; /* sums open levels behind the indices of the event */
+    inner.levels = rule->statement->loop_count; /* sums open levels after the indices of the event */
     inner.chain++;
     value v = lower_expression(&inner, of);
     if (!want_number(l, &v, of)) return wrong(l);

@@ -49,7 +49,7 @@ static inline value vector(lowering *l, int count)
 
 static inline value wrong(lowering *l) { return scalar(l, 0); }
 
-/* Switches simplification on or off, as derivatives have it. */
+/* Switches on or off the simplification that derivatives need. */
 static inline void lower_tidy(lowering *l, bool on) { l->model->graph->simplify = l->model->graph->tidy = on; }
 
 static inline node binary(lowering *l, operation op, node a, node b) { return graph_op(l->model->graph, op, a, b, 0); }

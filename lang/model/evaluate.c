@@ -161,7 +161,7 @@ static void held_cells(singling *s, const output *target, const node *values, in
         }
         return;
     }
-    const bool crowded = g->count > GRAPH_NODES_MAX / 2; /* so many numbers get no leaves of their own */
+    const bool crowded = g->count > GRAPH_NODES_MAX / 2; /* with this many nodes, numbers get no leaves of their own */
     for (int k = 0; k < parts && !s->failed && !source_failed(&m->source); k++) {
         reference r = single_cell(s, target->to);
         r.array = (uint16_t)(first + k);

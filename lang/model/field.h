@@ -20,7 +20,7 @@ typedef struct field_proof {
 bool field_prove(model *, bool in_v, const double *masses, field_proof *);
 /* Proves that a quantity is constant along every motion. False: no memory. */
 bool field_conserves(model *, const model_definition *, bool *proved);
-/* Returns whether the force may jump where a place passes some value; its derivatives do not show that. */
+/* Returns whether the force may jump where a position passes some value; its derivatives do not show that. */
 bool field_jumps(model *);
 
 #endif

@@ -221,7 +221,7 @@ typedef struct model {
     uint64_t calls;   /* calls of functions by functions so far, which bounds their cost */
     model_cut cut;    /* for lower_ghost.c: what is being lowered must be divided */
     bool divided;     /* something was divided */
-    /* Modes, numbers that only events change, are positions without velocity and acceleration, behind all others of x.
+    /* Modes, numbers that only events change, are positions without velocity and acceleration, after all others of x.
      * They are states [state_count, state_count + mode_count), which most code need not know. */
     model_state *states;
     uint32_t state_count, mode_count;

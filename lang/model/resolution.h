@@ -36,7 +36,7 @@ bool resolution_regular(operation, interval a, interval b);
 bool resolution_create_poles(model *, const output *, size_t count, resolution **out);
 bool resolution_pole(resolution *, interval t, interval *x, interval *v, const double *pool);
 
-/* The worst that intervals may leave open of a value. A resolution for doubts serves resolution_values, too. */
+/* The worst that intervals may not decide about a value. A resolution for doubts serves resolution_values, too. */
 typedef enum doubt {
     DOUBT_NONE,
     DOUBT_STEEP, /* an operation is near a pole or an infinite slope, so its value may change by much */

@@ -31,7 +31,7 @@ typedef struct switches {
     const char *refused; /* why their sides cannot be held, as a part of a sentence; NULL: they can */
     node refused_at;     /* the operation with which there were too many; 0: none */
     uint8_t *op;         /* by switch: its operation */
-    /* The sides are numbers slot … slot + count - 1 of the pool, behind the model's own, or of x if they are modes. */
+    /* The sides are numbers slot … slot + count - 1 of the pool, after the model's own, or of x if they are modes. */
     size_t slot;
     output *accel;       /* accelerations, with sides in place of switches */
     output *boundary;    /* boundary lines, with sides in place of switches */

@@ -16,7 +16,7 @@ symbol symbols_find(const model *, const char *name);
 void symbols_enter(model *, const char *name, symbol);
 /* Adds a hint to the complaint that a name is not defined; more: other names that may stand there. */
 void symbols_suggest(model *, const char *name, const char *const *more, uint32_t more_count);
-/* Adds the hint for a name with a bracket behind it. */
+/* Adds the hint for a name with a bracket after it. */
 void symbols_suggest_call(model *, const char *name);
 
 #endif

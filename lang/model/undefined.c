@@ -1,7 +1,7 @@
 /* See undefined.h. All nodes of a formula are evaluated: at the state as in a run, and beside it with twice the bits.
  *
- * The limit of a term is sought on straight and bent ways that lead to the state from both sides. It is told only if
- * all of them agree in every digit of a double.
+ * The limit of a term is sought on straight and bent ways that lead to the state from both sides. A limit counts only
+ * if all of them agree in every digit of a double.
  */
 #include "lang/model/undefined.h"
 

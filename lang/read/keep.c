@@ -1,4 +1,4 @@
-/* What events keep (lang/model/kept.h), after all calls are known: each number becomes a mode, behind all others, and
+/* What events keep (lang/model/kept.h), after all calls are known: each number becomes a mode, after all others, and
  * an assignment of its event. */
 #include "lang/read/read_steps.h"
 
@@ -75,7 +75,7 @@ static bool make_state(model *m, const model_keep *k, uint32_t number, size_t ba
     return !m->arena->failed;
 }
 
-/* Moves first-order variables behind all positions, modes included. */
+/* Moves first-order variables after all positions, modes included. */
 static void move_first_order(model *m, size_t by)
 {
     for (uint32_t i = 0; i < m->state_count; i++) {

@@ -1,4 +1,4 @@
-/* Modes: parameters that events assign (model.h). A mode is a position behind all others; its line gives its start, in
+/* Modes: parameters that events assign (model.h). A mode is a position after all others; its line gives its start, in
  * the numbers of the pool that it has as a parameter. */
 #include "lang/read/read_steps.h"
 

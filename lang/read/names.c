@@ -62,7 +62,7 @@ static void note(finding *f, const tree *t, const scope *s)
 
 static void find(finding *f, const tree *t, const scope *s);
 
-/* Checks the indices of a sum, each known behind its own bounds, then what is summed. */
+/* Checks the indices of a sum, each known after its own bounds, then what is summed. */
 static void find_in_sum(finding *f, const tree *t, uint32_t k, const scope *s)
 {
     if (k == t->loop_count) {

@@ -1,10 +1,10 @@
-/* What a model claims of its motion is checked: its exact lines (verify_exact.c, at the times of verify_sample.c, and
+/* Checks what a model claims of its motion: its exact lines (verify_exact.c, at the times of verify_sample.c, and
  * between them in verify_between.c) and its invariants, whose formulas verify_invariant.c makes and which
  * api/system/invariants.c follows along a motion; what both need is in verify_size.c.
  *
  * Numbers count as equal where their difference is below EXACT_ROUNDING times what rounding may make of them: a bound
  * from their formulas (graph_rounding), which knows about cancellation, and the size of the motion, by which a velocity
- * or a place is known. Invariant: a claim that rounding alone contradicts is accepted.
+ * or a position is known. Invariant: a claim that rounding alone contradicts is accepted.
  */
 #ifndef LANG_READ_VERIFY_H
 #define LANG_READ_VERIFY_H

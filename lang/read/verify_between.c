@@ -29,14 +29,14 @@ struct verify_between {
 
 /* Making it -------------------------------------------------------------------------------------------------------- */
 
-/* Whether an operation counts as a switch. An angle that is told jumps on its cut; a force that reads one may well be
- * the same on both sides. */
+/* Whether an operation counts as a switch. An angle that is an output (`told`) jumps on its cut; a force that reads one
+ * may well be the same on both sides. */
 static bool counts(const graph *g, const graph_node *n, bool told)
 {
     return switches_is(g, n) || (told && n->op == OP_ATAN2);
 }
 
-/* What is 0 where the operation switches; 0: it is no switch. */
+/* Returns what is 0 where the operation switches; 0: it is no switch. */
 static node switched_at(graph *g, const graph_node *n, bool told)
 {
     if (!counts(g, n, told)) return 0;
@@ -129,7 +129,7 @@ static double greatest(const model *m, const verify_sample *s)
 static bool holds(walk *w, double t)
 {
     const model *m = w->model;
-    static const double shift[3] = {INSTANT, -INSTANT, 0}; /* the last one is told */
+    static const double shift[3] = {INSTANT, -INSTANT, 0}; /* the last failure is reported */
     for (int k = 0; k < 3; k++) {
         const double at = t + shift[k] * w->run, part = (at - m->start) / w->run;
         if (part < 0 || part > 1) continue;

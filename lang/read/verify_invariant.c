@@ -75,7 +75,7 @@ static bool make_values(model *m, uint32_t i)
     return c->value[i] && c->value_rounding[i];
 }
 
-/* What a run must resolve: boundary cells, the force, and all invariants that are checked. */
+/* Finds what a run must resolve: boundary cells, the force, and all invariants that are checked. */
 static bool make_resolution(model *m)
 {
     const size_t room = m->definition_count + 2;

@@ -11,7 +11,7 @@ enum {
     WIDEST = 1024,
     /* doubles between blocks: those a power of two apart would map to the same cache sets */
     PAD = 8,
-    FEW_LANES = 1 /* with at most so many lanes, a call of a kernel costs more than it saves */
+    FEW_LANES = 1 /* with at most this many lanes, a call of a kernel costs more than it saves */
 };
 
 struct tape {

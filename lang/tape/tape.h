@@ -16,7 +16,8 @@ typedef struct binding { /* the numbers at run time, which must outlive the use 
 } binding;
 
 tape *tape_create(arena *, const program *); /* NULL: the arena failed */
-/* Makes a tape without a program of the caller; it keeps one only if it needs it later. */
+/* Makes a tape from outputs, without a program of the caller; keeps a program of its own only if tape_bind may need
+ * it. */
 tape *tape_of(arena *, graph *, const output *, size_t count);
 /* Takes the numbers at run time, chooses the width, takes scratch memory from the arena, and computes everything that
  * depends on parameters alone. Call it again after parameters have changed. False: no memory. */

@@ -127,7 +127,7 @@ typedef struct virtual_register {
             uint32_t number, next; /* the number that it gets, and another register that ends with it */
         } given;
     };
-    uint32_t memory; /* for tape_code.c: the block behind a view */
+    uint32_t memory; /* for tape_code.c: the block after a view */
 } virtual_register;
 /* Numbers all registers, which are in the order of `first`; counts[kind] is how many numbers a kind needs. False: no
  * memory. */

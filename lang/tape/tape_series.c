@@ -212,7 +212,7 @@ void tape_series_bind(tape_series *s, const binding *b)
     counting c = {.s = s};
     s->binding = *b;
     s->bound = numbers_of(&c, AT_BIND);
-    /* vectors begin at a multiple of their size, behind one series that nothing uses (emit_series.c) */
+    /* vectors begin at a multiple of their size, after one series that nothing uses (emit_series.c) */
     s->numbers = s->bound + numbers_of(&c, AT_RUN) + EXPANSION_LANES * (size_t)(s->length + 1);
 }
 

@@ -6,7 +6,7 @@
 
 typedef enum token_kind {
     TOKEN_END,
-    TOKEN_NEWLINE, /* `character` is ';' for a semicolon, behind which a statement does not go on */
+    TOKEN_NEWLINE, /* `character` is ';' for a semicolon, after which a statement does not go on */
     TOKEN_NUMBER,
     TOKEN_NAME,
     TOKEN_PRIMES,

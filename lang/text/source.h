@@ -23,7 +23,7 @@ typedef struct source {
         const char *bytes;
         uint32_t length;
         const char *name;
-        bool event; /* its text is the part of a line behind `when` */
+        bool event; /* its text is the part of a line after `when` */
     } * texts;
     uint32_t count;
     motus_status status; /* of the first complaint */

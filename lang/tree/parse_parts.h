@@ -182,7 +182,7 @@ static inline bool expect(parser *p, char c, const char *where)
     return false;
 }
 
-/* parse_factor.c; parse_for reads the ranges behind `for`, if there are any */
+/* parse_factor.c; parse_for reads the ranges after `for`, if there are any */
 tree *parse_inside(parser *p);
 void parse_for(parser *p, statement *s);
 void parse_index(parser *p, tree *t);

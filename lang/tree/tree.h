@@ -77,7 +77,7 @@ typedef enum action_kind { ACTION_RECORD, ACTION_STOP, ACTION_ASSIGN } action_ki
 typedef struct action {
     uint8_t kind; /* action_kind */
     span at;
-    tree *target, *value; /* ASSIGN: both; STOP: the value is the number behind `after`, or NULL */
+    tree *target, *value; /* ASSIGN: both; STOP: the value is the number after `after`, or NULL */
     struct action *next;
 } action;
 

@@ -1,12 +1,12 @@
 /* The last text of a compiled model in lanes: a block of trajectories starts, goes on, is observed.
  *
- * Before it stand lanes_start, lanes_bind and lanes_quantities, written for the model, and EVERY_GROUP(DO), DO(0)
- * DO(1) … for the groups of a block.
+ * Included after lanes_start, lanes_bind and lanes_quantities, which are written for the model, and EVERY_GROUP(DO),
+ * DO(0) DO(1) … for the groups of a block.
  *
  * Invariant: a lane never sees another; what a block needs between two calls lies in its job. In between a block of a
  * small model lives in registers and the first cache: each group takes its whole step, and the processor overlaps the
- * groups, whose operations are independent. Of a row that iterates the groups take their turns side by side, because a
- * whole step is too long for the processor to overlap.
+ * groups, whose operations are independent. With a row that iterates, the groups take their turns side by side, because
+ * a whole step is too long for the processor to overlap.
  *
  * OWN_CLOCK: every lane has its own time and step. Those of an adaptive row accept their candidates one by one; those
  * of a row of fixed steps take as many steps as the library knows that all of them have to take.

@@ -70,9 +70,9 @@ typedef struct lanes_job {
     bool begins;            /* own clocks: every lane is at the first step of its leg */
     double until;
     /* Of each group of watched lanes: what `carry` and `clocks` were before the latest candidate of each lane, nv
-     * bounds on the accelerations within it, the largest sizes of x and then v with which steps began, and a number
-     * other than 0 where the bounds of some function of the rules are not positive on its box. shown: with fixed steps
-     * x, v and the accelerations at the start of the latest step, then at its end. */
+     * bounds on the accelerations within it, the largest sizes of x and then v with which steps began, and a nonzero
+     * number if the bounds of some function of the rules are not positive on its box. shown: with fixed steps x, v and
+     * the accelerations at the start of the latest step, then at its end. */
     real *before, *before_clocks, *bounds, *largest, *met, *shown;
     real *where; /* own clocks, of each group: 1 in the lanes that are observed, else 0 */
     real *kept;  /* REDUCE_KEPT numbers of each record of each group */

@@ -1,13 +1,13 @@
 /* Linear systems of lanes. Every lane has its own matrix, which is factored and solved by the operations of
  * core/solver.c and solver_band.c, in their order.
  *
- * Before it stand, written for the model and the row: SOLVE_N unknowns, SOLVE_LOWER and SOLVE_UPPER diagonals,
- * SOLVE_CONSTANT; the type `solving`; solve_derive (the entries of the derivatives), solve_fill (the matrix, column by
- * column; or its diagonal, if it has no other entries), solve_take and solve_give (from the stages' order to that of
- * the unknowns, and back), solve_multiply, solve_turns. Invariant: a lane picks its own pivots and skips its own
- * operations, by choosing among results; entries outside the band are 0 and stay so. Where a matrix is singular its
- * lane is marked in host->lost by a NaN; where a gyroscopic row meets a velocity term that does work, by an infinity.
- * What is constant is factored once in a call.
+ * Included after definitions that are written for the model and the row: SOLVE_N unknowns, SOLVE_LOWER and SOLVE_UPPER
+ * diagonals, SOLVE_CONSTANT; the type `solving`; solve_derive (the entries of the derivatives), solve_fill (the matrix,
+ * column by column; or its diagonal, if it has no other entries), solve_take and solve_give (from the stages' order to
+ * that of the unknowns, and back), solve_multiply, solve_turns. Invariant: each lane has its own pivots and skips its
+ * own operations, by selecting among results; entries outside the band are 0 and stay so. A lane whose matrix is
+ * singular is marked in host->lost by a NaN; one in which a gyroscopic row meets a velocity term that does work, by an
+ * infinity. What is constant is factored once in a call.
  */
 #define SOLVE_DIAGONAL (SOLVE_LOWER + SOLVE_UPPER == 0)
 #define SOLVE_MATRIX (SOLVE_DIAGONAL ? SOLVE_N : SOLVE_N * SOLVE_N)
@@ -21,8 +21,8 @@ static inline void solve_begin(compiled_host *host, const lanes_job *job, size_t
     if (!factored) host->solving->lossy = false;
 }
 
-/* Within a loop over steps, matrices that change with the state are variables of that loop, from SOLVE_NEAR to
- * SOLVE_FAR: a compiler keeps them in registers, and knows that no parameter changes with them. */
+/* Matrices that change with the state are local variables of a loop over steps, from SOLVE_NEAR to SOLVE_FAR: so the
+ * compiler keeps them in registers, and knows that writing them changes no parameter. */
 #if SOLVE_CONSTANT
 #define SOLVE_NEAR(host, z, lost)
 #define SOLVE_FAR(job, group, lost)
@@ -135,8 +135,8 @@ static inline void solve_lu_back(const real *restrict m, const real *restrict pi
 }
 #endif
 
-/* Factors for the lanes `where`, and takes the singular ones out of `where`: NaN in their matrix makes NaN of what they
- * solve. */
+/* Factors for the lanes `where`, and takes the singular ones out of `where`: their matrix becomes NaN, and so does what
+ * they solve. */
 static inline void solve_renew(const compiled_host *host, solving *z, mask *where, const clock *ax, const clock *av,
                                clock t, real *x, real *v)
 {
@@ -157,7 +157,7 @@ static inline void solve_renew(const compiled_host *host, solving *z, mask *wher
     *where = *where & regular;
 }
 
-/* A constant matrix does not depend on the state, which therefore stays out of memory. */
+/* A constant matrix does not depend on the state, so the state can stay in registers. */
 __attribute__((noinline, cold, unused)) static void solve_once(const compiled_host *host, const clock *ax,
                                                                const clock *av, clock t)
 {

@@ -42,8 +42,8 @@
 #define CONSTANT static const
 #define AS_BITS(x) NAME(as_bits)(x)
 #define AS_REAL(b) NAME(as_real)(b)
-/* Of a double alone by its own operations, to the same bits: as integers it would move to other registers and back,
- * which takes as long as two products, and whatever comes next waits for it. */
+/* One double has its own operations for this, with the same bits: as an integer it would move to other registers and
+ * back, which takes as long as two products, and what comes next would wait for it. */
 #define ABSOLUTE(x) fabs(x)
 #define SIGNED(x, s) ((x)*copysign(1.0, AS_REAL(s)))
 #ifdef __GNUC__
