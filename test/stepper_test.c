@@ -109,7 +109,7 @@ static void instruction_sets_agree(void **state)
     (void)state;
     const stepper_body *bodies[3] = {&stepper_body_base};
     int count = 1;
-#if defined __x86_64__
+#if defined __x86_64__ && !defined ONE_ISA
     __builtin_cpu_init();
     if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) bodies[count++] = &stepper_body_avx2;
     if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq"))
