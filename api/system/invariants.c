@@ -384,9 +384,10 @@ static motus_status check(motus_system *s, motus_error *err)
     double *room = take(&s->allocator, 14 * n + 3 * c->numbers + 3 * definitions + all, sizeof *room);
     uint32_t *off = take(&s->allocator, definitions + 1, sizeof *off);
     interval *in = take(&s->allocator, 2 * n, sizeof *in);
-    runs r = {.model = m, .t = m->start, .off = off, .in_x = in, .in_v = in + n};
+    const bool roomy = room && off && in;
+    runs r = {.model = m, .t = m->start, .off = off, .in_x = in, .in_v = roomy ? in + n : NULL};
     chosen row;
-    motus_status status = room && off && in ? row_choose(METHOD, &row, NULL, err) : MOTUS_MEMORY;
+    motus_status status = roomy ? row_choose(METHOD, &row, NULL, err) : MOTUS_MEMORY;
     if (status == MOTUS_OK)
         status = stepper_create(&s->machine, &row, m->start, 1, m->x0, m->v0, &s->allocator, &r.stepper, err);
     if (status == MOTUS_OK) {
