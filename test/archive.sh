@@ -149,15 +149,19 @@ kill -KILL $one
 wait $one 2>/dev/null
 there=$(blocks "$place/killed-dear.h5")
 that "... keeps some of them when it is killed" eval "[ $there -ge 1 ] && [ $there -lt 8 ]"
-"${dear[@]}" --machine interpreter --threads 1 --resume --quiet -o "$place/killed-dear.h5" 2>"$err" &
-one=$!
-sleep 1
-kill -STOP $one
-there=$(blocks "$place/killed-dear.h5")
-kill -TERM $one
-kill -CONT $one
-wait $one
-status=$?
+# Again where the signal met the end of a block.
+for _ in 1 2 3; do
+    "${dear[@]}" --machine interpreter --threads 1 --resume --quiet -o "$place/killed-dear.h5" 2>"$err" &
+    one=$!
+    sleep 1
+    kill -STOP $one
+    there=$(blocks "$place/killed-dear.h5")
+    kill -TERM $one
+    kill -CONT $one
+    wait $one
+    status=$?
+    [ "$(blocks "$place/killed-dear.h5")" = "$there" ] && break
+done
 that "SIGTERM ends it in the middle of a block" eval "[ $(blocks "$place/killed-dear.h5") = $there ] && { [ $status = 1 ] || [ $status = 143 ]; }"
 gives "... it is finished by --resume" 0 "${dear[@]}" -o "$place/killed-dear.h5" --resume --json
 that "... which keeps what was there" holds ".resumed >= $((there * 8)) and .resumed < 60"

@@ -198,11 +198,8 @@ static size_t up_to_block(uint64_t row, size_t count, uint64_t block)
     return behind < count ? count - behind : count;
 }
 
-/* Makes the error for a warning by the batch system that it will end the program. */
-static motus_status warned(motus_error *err)
-{
-    return complain(err, MOTUS_CANCELLED, "the same command with --resume continues", "stopped by a signal");
-}
+/* Makes the error for a warning by the batch system that it will end the program; note_unfinished says how to go on. */
+static motus_status warned(motus_error *err) { return fail(err, MOTUS_CANCELLED, "stopped by a signal"); }
 
 static motus_status go(sweep *s, sweep_file *f, sweep_events *events, sweep_section *section, stop_progress *p,
                        motus_error *err)
