@@ -32,6 +32,7 @@ typedef struct walker {
     walk_keeper keeper;
     double kept, looked; /* seconds of the clock: when the run was last saved, and when the clock was last read */
     int64_t kept_steps;  /* the steps of the run when it was last saved */
+    int64_t last;        /* the first of the last steps; INT64_MAX: the keeper does not remember them */
     int64_t piece;       /* the steps between two readings of the clock */
     bool held;           /* signals are held back until the run is saved */
     int64_t observed;    /* the steps of the run when observe_due() was last called */
@@ -204,17 +205,10 @@ static motus_status keep(walker *w, motus_error *err)
     return status;
 }
 
-/* Returns the first of the last steps; INT64_MAX: the keeper does not remember them. */
-static int64_t last_steps(const walker *w)
-{
-    const int64_t total = motus_run_now(w->run).steps_total;
-    return w->keeper.remember && total > 0 ? total - LAST : INT64_MAX;
-}
-
 static motus_status remember(walker *w, motus_error *err)
 {
     bool all = false;
-    if (motus_run_steps(w->run) < last_steps(w) || motus_run_done(w->run)) return MOTUS_OK;
+    if (motus_run_steps(w->run) < w->last || motus_run_done(w->run)) return MOTUS_OK;
     const motus_status status = give_jumps(w, &all, err);
     if (status || !all) return status;
     *w->keeper.samples = w->done[0].samples;
@@ -225,8 +219,7 @@ static motus_status remember(walker *w, motus_error *err)
 static int64_t next_stop(const walker *w)
 {
     int64_t next = INT64_MAX;
-    const int64_t now = motus_run_steps(w->run);
-    const int64_t last = last_steps(w);
+    const int64_t now = motus_run_steps(w->run), last = w->last;
     if (w->keeper.keep) next = w->keeper.steps > 0 ? now + w->keeper.steps - now % w->keeper.steps : now + w->piece;
     if (last < INT64_MAX && next > (now < last ? last : now + 1)) next = now < last ? last : now + 1;
     for (size_t i = 0; i < w->count; i++) {
@@ -371,7 +364,8 @@ static motus_status prepare(walker *w, motus_error *err)
 motus_status walk(motus_run *run, double start, double until, const walk_observer *observers, size_t count,
                   const walk_keeper *keeper, motus_error *err)
 {
-    double size = motus_run_now(run).step;
+    const motus_run_statistics now = motus_run_now(run);
+    double size = now.step;
     const bool adapts = isnan(size);
     if (adapts) size = 1e-6 * fabs(until - start); /* only its sign is used, and the slack that follows from it */
     walker w = {.run = run,
@@ -384,8 +378,10 @@ motus_status walk(motus_run *run, double start, double until, const walk_observe
                 .kept = stop_clock(),
                 .looked = stop_clock(),
                 .kept_steps = motus_run_steps(run),
+                .last = INT64_MAX,
                 .piece = 1};
     if (keeper) w.keeper = *keeper;
+    if (w.keeper.remember && now.steps_total > 0) w.last = now.steps_total - LAST;
     size_t widest = 1;
     for (size_t i = 0; i < count; i++) {
         size_t rows = observers[i].errors ? 2 : observers[i].period > 0 ? CHUNK : 1;
