@@ -174,7 +174,7 @@ static void rule_2_juxtaposition(void **unused)
              {"(a)2", MOTUS_SYNTAX, 1, "2 (a)"}, {"x' 2", MOTUS_SYNTAX, 1, "2 x'"},
              {"sin(x) 2", MOTUS_SYNTAX, 1, "2 sin(x)"}, {"|x| 2", MOTUS_SYNTAX, 1, "2 |x|"},
              {"a b 2", MOTUS_SYNTAX, 3, "2 b"}, {"a - -b", MOTUS_SYNTAX, 5, "bracket"},
-             {"1 < x < 3", MOTUS_SYNTAX, 7, "and"}, {"x**2", MOTUS_SYNTAX, 2, "^"});
+             {"1 < x > 3", MOTUS_SYNTAX, 7, "1 < x and x > 3"}, {"x**2", MOTUS_SYNTAX, 2, "^"});
 }
 
 /* There is no decimal number 0.5.1.2 to be offered. */
@@ -322,8 +322,7 @@ static void rule_9_shapes(void **unused)
              {"r.w", MOTUS_SYNTAX, 3, ".x .y .z"}, {"2^r", MOTUS_SHAPE, 3, "exponent"},
              {"(r, 1)", MOTUS_SHAPE, 2, "component"}, {"if(x > 0, r, 0)", MOTUS_SHAPE, 1, "fit"},
              {"min(r, r)", MOTUS_SHAPE, 5, "vector"}, {"r < r'", MOTUS_SHAPE, 1, "comparison"},
-             {"(x > 0) + 1", MOTUS_SHAPE, 1, "if(condition"}, {"sqrt(x > 0)", MOTUS_SHAPE, 6, "condition"},
-             {"1/(x > 0)", MOTUS_SHAPE, 3, "condition"}, {"-(x > 0)", MOTUS_SHAPE, 2, "condition"});
+             {"(x > 0) + r", MOTUS_SHAPE, 1, "a number and a vector"}, {"(x > 0).x", MOTUS_SHAPE, 1, "a condition"});
 }
 
 static void rule_10_parameters_and_quantities(void **unused)
@@ -509,8 +508,7 @@ static void rule_12_sums(void **unused)
              {"sum(i = 1..2, j = 1..2, k = 1..2: i j k)", 27});
     REFUSALS({"sum(x)", MOTUS_SYNTAX, 5, "index"}, {"sum(i = 1..3)", MOTUS_SYNTAX, 13, ":"},
              {"sum(i = 1: i)", MOTUS_SYNTAX, 10, ".."}, {"sum(i = 1..3, i: i)", MOTUS_SHAPE, 15, "condition"},
-             {"sum(i = 1..3: i > 1)", MOTUS_SHAPE, 15, "condition"}, {"sum(a = 1..3: a)", MOTUS_NAME, 5, "a"},
-             {"sum(i = 1..2: sum(i = 1..2: i))", MOTUS_SHAPE, 19, "twice"},
+             {"sum(a = 1..3: a)", MOTUS_NAME, 5, "a"}, {"sum(i = 1..2: sum(i = 1..2: i))", MOTUS_SHAPE, 19, "twice"},
              {"sum(i = 1..x: i)", MOTUS_SHAPE, 12, "state"},
              {"sum(i = 1..2, 1 < 2, j = 1..2: i)", MOTUS_SYNTAX, 22, "before the conditions"},
              {"i", MOTUS_NAME, 1, "not defined"}, {"sum i", MOTUS_SYNTAX, 1, "sum"},
@@ -534,9 +532,10 @@ static void rule_14_conditions(void **unused)
     EXAMPLES({"if(x > 0, 1, 0)", 1}, {"if(x < 0, 1/0, 4)", 4}, {"if(x > 0, 4, sqrt(-x))", 4}, {"if(x >= 2, 1, 0)", 1},
              {"if(x <= 1, 1, 0)", 0}, {"if(x == 2, 1, 0)", 1}, {"if(x != 2, 1, 0)", 0}, {"if(x ≠ 2, 1, 0)", 0},
              {"if(x ≤ 2, 1, 0)", 1}, {"if(x ≥ 3, 1, 0)", 0}, {"x''", -2}, {"x'' + x", 0}, {"s' + u[1]''", 2 + 21});
-    REFUSALS({"if(x, 1, 0)", MOTUS_SHAPE, 4, "x > 0"}, {"if(x > 0, 1)", MOTUS_SYNTAX, 1, "3 arguments"},
-             {"if(x = 0, 1, 0)", MOTUS_SYNTAX, 6, "=="}, {"x and y", MOTUS_SHAPE, 1, "x > 0"},
-             {"not x", MOTUS_SHAPE, 5, "x > 0"});
+    REFUSALS({"if(x, 1, 0)", MOTUS_SHAPE, 4, "x != 0"}, {"if(x > 0, 1)", MOTUS_SYNTAX, 1, "3 arguments"},
+             {"if(x = 0, 1, 0)", MOTUS_SYNTAX, 6, "=="}, {"x and y", MOTUS_SHAPE, 1, "x != 0"},
+             {"not x", MOTUS_SHAPE, 5, "x != 0"}, {"1 == x != 2", MOTUS_SYNTAX, 8, "1 == x and x != 2"},
+             {"1 != x != 2", MOTUS_SYNTAX, 8, "goes one way"});
 }
 
 /* Nor in derivatives: Newton's method on this force meets the derivative of the branch not taken, which is NaN at x =
@@ -630,6 +629,65 @@ static void in_given(const defined *e, size_t count)
         }
     }
     assert_int_equal(faults, 0);
+}
+
+/* A condition is a value, 1 or 0, and its value is a condition again. */
+static void rule_14_values(void **unused)
+{
+    (void)unused;
+    EXAMPLES({"x > 1", 1}, {"x > 2 or y < 0", 0}, {"(x > 0) + 1", 2}, {"sqrt(x > 0)", 1}, {"1/(x > 0)", 1},
+             {"-(x > 0)", -1}, {"-(x > 0) + 1", 0}, {"|x < 0|", 0}, {"max(x > 0, 0)", 1}, {"(x > 0, y < 0).y", 0},
+             {"(x > 0)^2", 1}, {"sum(i = 1..3: i > 1)", 2}, {"dot((x > 0, x < 0), (2, 3))", 2}, {"diff(x > 0, x)", 0});
+    EXAMPLES({"1 < x < 3", 1}, {"1 < x < 2", 0}, {"1 < x <= 2 < 3 <= 3", 1}, {"3 > x >= 2 > 1", 1}, {"2 == x == a", 0},
+             {"not 1 < x < 3", 0}, {"(1 < x < 3) a", 5}, {"sum(i = 1..5, 1 < i < 5: i)", 9});
+    EXAMPLES({"(x > 0) == 1", 1}, {"(x > 0) == (y < 0)", 0}, {"(x < 0) != 1", 1}, {"(x > 0) >= (y > 0)", 1},
+             {"(x > 0) < 2", 1}, {"(x > 0) == 1/2", 0}, {"if(if(x > 0, 1, 0), 3, 4)", 3}, {"if(a, 3, 4)", 3},
+             {"if(if(x > 0, y < 0, y > 0), 3, 4)", 4}, {"if(x > 0, y > 0, 2) + 1", 2}, {"(x > 0) (y > 0) == 1", 1});
+    const defined e[] = {
+        {"lit = x > 1 and y > 1", "if(lit, 3, 4)", 3},
+        {"lit = x > 1 and y > 1", "3 (1 - lit) + lit a", 5},
+        {"lit = x > 1 and y > 1", "if(not lit or lit, 3, 4)", 3},
+        {"lit = x > 1 and y > 1", "if(lit == 0, 3, 4)", 4},
+        {"lit[i] = i > x for i = 1..4\nn = sum(i = 1..4, lit[i]: i)", "n + lit[3]", 8},
+        {"on = 1 < 2\noff = not on", "if(on and not off, 3, 4) + on", 4},
+        {"on[i] = i != 2 for i = 1..3", "sum(i = 1..3, on[i]: i)", 4},
+        {"in(q) = 1 < q < 3", "if(in(x) and not in(a), in(x), 7)", 1},
+    };
+    in_given(e, sizeof e / sizeof *e);
+}
+
+/* A named condition is a switch: steps end where its own sides are equal, and so do events. */
+static void rule_14_switches(void **unused)
+{
+    (void)unused;
+    const char *const start = "\nx(0) = 1\nx'(0) = 0\nx'' = ", *const forces[] = {"if(x > 0, -1, 0)",
+                                                                                  "-lit",
+                                                                                  "-if(lit, 1, 0)",
+                                                                                  "-(lit == 1)",
+                                                                                  "-lit lit",
+                                                                                  "-if(not lit, 0, lit)",
+                                                                                  "-f(x)"};
+    for (size_t i = 0; i < sizeof forces / sizeof *forces; i++) {
+        char text[1024];
+        snprintf(text, sizeof text, "lit = x > 0\nf(q) = q > 0%s%s\nuntil 3\nwhen %s as dark: record", start, forces[i],
+                 i % 2 ? "not lit" : "x <= 0");
+        motus_system *s = given_text(text);
+        motus_run_def def = motus_default_run();
+        motus_error err = motus_default_error();
+        motus_run *r = NULL;
+        motus_switch one = motus_default_switch();
+        double x;
+        assert_int_equal(motus_switch_at(s, 0, &one), MOTUS_OK);
+        assert_true(one.located);
+        assert_string_equal(one.surface, "x = 0");
+        assert_int_equal(motus_switch_at(s, 1, &one), MOTUS_ARGUMENT);
+        must(motus_run_create(s, &def, &r, &err), &err, "create");
+        must(motus_run_finish(r, &err), &err, "finish");
+        must(motus_run_state(r, &x, NULL, &err), &err, "state");
+        assert_true(fabs(x + sqrt(2) * (3 - sqrt(2))) < 1e-14); /* it falls until t = sqrt(2), then goes on as it is */
+        motus_run_destroy(r);
+        motus_system_destroy(s);
+    }
 }
 
 static void rule_16_functions(void **unused)
@@ -784,7 +842,6 @@ static void rule_17_derivatives(void **unused)
     refused("f = diff(x^2, pi)", MOTUS_SHAPE, 1, 15, "pi is not one");
     refused("f = diff(E, E)\nE = x^2", MOTUS_SHAPE, 1, 13, "E is a quantity");
     refused("f = diff(2 r, r)", MOTUS_SHAPE, 1, 5, "matrix");
-    refused("f = diff(x > 0, x)", MOTUS_SHAPE, 1, 10, "condition");
     refused("f = diff(m[1] x, k)", MOTUS_SHAPE, 1, 5, "a list or an initial value in this expression depends on k");
     refused("f = diff(x)", MOTUS_SYNTAX, 1, 5, "diff takes 2 arguments");
     refused("V(i) = diff(m[i] x, i)\nf = V(1)", MOTUS_SHAPE, 1, 15, "an index cannot depend");
@@ -1001,6 +1058,8 @@ int main(void)
         cmocka_unit_test(rule_12_sums),
         cmocka_unit_test(rule_12_masks_select),
         cmocka_unit_test(rule_14_conditions),
+        cmocka_unit_test(rule_14_values),
+        cmocka_unit_test(rule_14_switches),
         cmocka_unit_test(rule_14_no_leak_in_derivatives),
         cmocka_unit_test(rule_15_normal_form),
         cmocka_unit_test(rule_15_parameters_do_not_rewrite),

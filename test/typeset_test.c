@@ -182,6 +182,8 @@ static void expressions(void **state)
          "{{mtable{mtr{mtd{1}|mtd{if_a≤b_and_not_{(b≥c_or_a=1)}}}mtr{mtd{2}|mtd{if_a≠b}}mtr{mtd{a}|mtd{otherwise}}}}"},
         {"if((a < b or b < c) and not not (a < c and b < a), 1, 2)",
          "{{mtable{mtr{mtd{1}|mtd{if_{(a<b_or_b<c)}_and_not_not_{(a<c_and_b<a)}}}mtr{mtd{2}|mtd{otherwise}}}}"},
+        {"a (b < c <= n)", "a~{(b<c≤n)}"},
+        {"not 1 < a < b and b == c == n", "not_1<a<b_and_b=c=n"},
         {"if(a < b or (b < c or a > b and c > a), 1, 2)",
          "{{mtable{mtr{mtd{1}|mtd{if_a<b_or_{(b<c_or_a>b_and_c>a)}}}mtr{mtd{2}|mtd{otherwise}}}}"},
         {"if(a > 1, 1, 2) b", "{({{mtable{mtr{mtd{1}|mtd{if_a>1}}mtr{mtd{2}|mtd{otherwise}}}})}~b"},

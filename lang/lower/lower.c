@@ -34,12 +34,18 @@ value lower_expression(lowering *l, const tree *t)
     return lower_no_matrix(l, &v, t) ? v : wrong(l);
 }
 
-node lower_scalar(lowering *l, const tree *t, const char *what)
+value lower_numbers(lowering *l, const tree *t)
 {
     value v = lower_expression(l, t);
+    lower_as_number(l, &v);
+    return v;
+}
+
+node lower_scalar(lowering *l, const tree *t, const char *what)
+{
+    value v = lower_numbers(l, t);
     char shape[40];
-    if (!failed(l) && (v.count > 0 || v.boolean))
-        COMPLAIN(l, &t->at, "%s is a number, but this is %s", what, shape_name(&v, shape));
+    if (!failed(l) && v.count > 0) COMPLAIN(l, &t->at, "%s is a number, but this is %s", what, shape_name(&v, shape));
     return failed(l) ? 0 : v.item[0];
 }
 
@@ -67,10 +73,32 @@ value lower_matrix(lowering *l, const tree *t)
     return v;
 }
 
-void lower_mode_truth(lowering *l, value *v)
+void lower_as_number(lowering *l, value *v)
 {
+    graph *g = l->model->graph;
+    if (failed(l) || !v->boolean) return;
+    *v = scalar(l, graph_op(g, OP_SELECT, v->item[0], graph_const(g, 1), graph_const(g, 0)));
+}
+
+static bool constant(const graph *g, node n, double is)
+{
+    const graph_node *const c = graph_at(g, n);
+    return c->op == OP_CONST && c->value == is;
+}
+
+void lower_as_decided(lowering *l, value *v)
+{
+    const graph *g = l->model->graph;
     if (failed(l) || v->boolean || v->count || v->rows) return;
-    const unsigned deps = graph_deps(l->model->graph, v->item[0]), others = DEP_TIME | (DEP_STATE & ~DEP_MODE);
-    if (!(deps & DEP_MODE) || deps & others) return;
-    *v = condition(l, binary(l, OP_NE, v->item[0], graph_const(l->model->graph, 0)));
+    const graph_node *const choice = graph_at(g, v->item[0]);
+    if (choice->op == OP_SELECT && constant(g, choice->b, 1) && constant(g, choice->c, 0)) *v = condition(l, choice->a);
+}
+
+void lower_as_condition(lowering *l, value *v)
+{
+    lower_as_decided(l, v);
+    if (failed(l) || v->boolean || v->count || v->rows) return;
+    const unsigned deps = graph_deps(l->model->graph, v->item[0]), moves = DEP_TIME | DEP_D | (DEP_STATE & ~DEP_MODE);
+    if (deps & (DEP_MODE | DEP_PARAM) && !(deps & moves))
+        *v = condition(l, binary(l, OP_NE, v->item[0], graph_const(l->model->graph, 0)));
 }

@@ -66,9 +66,16 @@ value lower_tree(lowering *, const tree *);
 void lower_start(lowering *, model *, lower_place, const char *what);
 value lower_expression(lowering *, const tree *);
 value lower_matrix(lowering *, const tree *);
-/* Makes a condition of a mode, or of a number of modes alone, where one is expected: it is true unless the number is 0,
- * as in if(stuck, 0, -x). */
-void lower_mode_truth(lowering *, value *);
+/* Makes the number of a condition, if(c, 1, 0), where a number is expected. Whatever is known of a choice, as where its
+ * sides change, therefore is known of it. */
+void lower_as_number(lowering *, value *);
+/* Makes a condition of its number, so that if(x > 0, 1, 0) is x > 0 again and changes where x is 0. */
+void lower_as_decided(lowering *, value *);
+/* Makes a condition where one is expected: of its number, and of a number of modes and parameters alone, which is true
+ * unless it is 0, as in if(stuck, 0, -x). */
+void lower_as_condition(lowering *, value *);
+/* Lowers a tree that is no condition, or that counts as a number. */
+value lower_numbers(lowering *, const tree *);
 /* Lowers a tree that must be a number, neither vector nor condition. */
 node lower_scalar(lowering *, const tree *, const char *what);
 /* Lowers a left side, `name[indices] … for loops`: fills to->dims, to->at and the loops of the output, and makes the

@@ -89,10 +89,8 @@ static node seed(graph *g, node leaf, void *differential_ctx)
 
 static value derivative(lowering *l, const tree *call, value of, value by)
 {
-    const tree *variable = call->item[1];
     graph *g = l->model->graph;
     char a[40], b[40];
-    if (!want_number(l, &of, call->item[0]) || !want_number(l, &by, variable)) return wrong(l);
     if (of.count && by.count) {
         COMPLAIN(l, &call->at, "the derivative of %s by %s is a matrix", shape_name(&of, a), shape_name(&by, b));
         HINT(l, "take a component of one of them");
@@ -132,11 +130,21 @@ static node argument_for(graph *g, node load, int level, void *replacement_ctx)
     return load;
 }
 
+static value no_variable(lowering *l, const tree *t)
+{
+    char text[80];
+    COMPLAIN(l, &t->at, "diff differentiates by a variable, and %s is not one", quote(l, &t->at, text));
+    HINT(l,
+         "a variable is a state x, its velocity x', t, a parameter, an argument of a function, or a component of them");
+    return wrong(l);
+}
+
 /* Differentiates by an argument of the function that is being expanded. */
 static value by_argument(lowering *l, const tree *call, argument *a)
 {
     const value now = lower_argument(l, a);
-    if (failed(l) || !want_number(l, &now, call->item[1])) return wrong(l);
+    if (now.boolean) return no_variable(l, call->item[1]);
+    if (failed(l)) return wrong(l);
     argument arguments[MODEL_ARGUMENTS_MAX];
     memcpy(arguments, l->arguments, l->argument_count * sizeof *arguments);
     replacement r = {.l = l, .argument = a, .leaves = vector(l, now.count)};
@@ -145,20 +153,11 @@ static value by_argument(lowering *l, const tree *call, argument *a)
     lowering inner = *l;
     inner.arguments = arguments;
     const value by = lower_expression(&inner, call->item[1]);
-    const value of = failed(l) ? wrong(l) : lower_expression(&inner, call->item[0]);
+    const value of = failed(l) ? wrong(l) : lower_numbers(&inner, call->item[0]);
     value v = failed(l) ? wrong(l) : derivative(&inner, call, of, by);
     for (int k = 0; k < (v.count ? v.count : 1) && !failed(l); k++)
         v.item[k] = graph_replace(l->model->graph, v.item[k], DEP_D, l->levels, argument_for, &r);
     return failed(l) ? wrong(l) : v;
-}
-
-static value no_variable(lowering *l, const tree *t)
-{
-    char text[80];
-    COMPLAIN(l, &t->at, "diff differentiates by a variable, and %s is not one", quote(l, &t->at, text));
-    HINT(l,
-         "a variable is a state x, its velocity x', t, a parameter, an argument of a function, or a component of them");
-    return wrong(l);
 }
 
 value lower_diff(lowering *l, const tree *call)
@@ -177,6 +176,6 @@ value lower_diff(lowering *l, const tree *call)
     lowering only = *l;
     only.by_variable = true;
     const value variable = lower_expression(&only, by);
-    const value of = failed(l) ? wrong(l) : lower_expression(l, call->item[0]);
+    const value of = failed(l) ? wrong(l) : lower_numbers(l, call->item[0]);
     return failed(l) ? wrong(l) : derivative(l, call, of, variable);
 }

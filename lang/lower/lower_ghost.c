@@ -74,9 +74,9 @@ bool lower_add_ghost(model *m, model_state *s, const statement *line, const int6
 
 bool lower_fits(model *m, const statement *s, const model_state *state, value v, const char *what)
 {
-    if (!v.boolean && v.count == state->components) return true;
-    char is[48] = "a condition", due[48] = "a number";
-    if (!v.boolean) snprintf(is, sizeof is, v.count ? "a vector of length %d" : "a number", v.count);
+    if (v.count == state->components) return true;
+    char is[48], due[48] = "a number";
+    snprintf(is, sizeof is, v.count ? "a vector of length %d" : "a number", v.count);
     if (state->components) snprintf(due, sizeof due, "a vector of length %d", state->components);
     source_complain(&m->source, MOTUS_SHAPE, &s->value->at, "%s is %s, but %s is %s by its initial value", what, is,
                     state->name, due);
@@ -214,7 +214,7 @@ static value expand(lowering *l, const tree *t, const model_state *s, model_ghos
                                                        .last = high[d]};
     }
     g->expanding = true;
-    value v = lower_expression(&inner, line->value);
+    value v = lower_numbers(&inner, line->value);
     g->expanding = false;
     if (failed(l) || !lower_fits(l->model, line, s, v, "a boundary line")) return wrong(l);
     return t->primes == 1 && s->order == 2 ? velocity(l, t, v) : v;

@@ -75,8 +75,8 @@ static value kept_value(lowering *l, const tree *t, const model_rule *rule)
     inner.what = "what an event keeps";
     inner.levels = rule->statement->loop_count; /* sums open levels after the indices of the event */
     inner.chain++;
-    value v = lower_expression(&inner, of);
-    if (!want_number(l, &v, of)) return wrong(l);
+    value v = lower_numbers(&inner, of);
+    if (failed(l)) return wrong(l);
     for (int k = 0; k < (v.count ? v.count : 1); k++)
         if (graph_deps(l->model->graph, v.item[k]) & DEP_LEVELS) {
             COMPLAIN(l, &of->at, "what an event keeps cannot depend on an index");

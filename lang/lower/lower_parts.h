@@ -74,14 +74,6 @@ static inline const char *shape_name(const value *v, char out[40])
     return out;
 }
 
-static inline bool want_number(lowering *l, const value *v, const tree *t)
-{
-    if (!v->boolean || failed(l)) return !failed(l);
-    COMPLAIN(l, &t->at, "this is a condition, but a number is expected here");
-    HINT(l, "write if(condition, 1, 0)");
-    return false;
-}
-
 /* lower_index.c */
 const index_name *lower_find_index(const lowering *, const char *name);
 bool lower_add_index(lowering *, const loop *, int level, int64_t first, int64_t last);

@@ -13,7 +13,6 @@ static bool equal_shapes(lowering *l, const tree *t, const tree *a, const value 
                          const char *sign)
 {
     char x[80], y[80], p[40], q[40];
-    if (!want_number(l, va, a) || !want_number(l, vb, b)) return false;
     if (va->count == vb->count) return true;
     COMPLAIN(l, &t->at, "%s %s %s does not fit: %s and %s", quote(l, &a->at, x), sign, quote(l, &b->at, y),
              shape_name(va, p), shape_name(vb, q));
@@ -68,9 +67,7 @@ static value lower_matrix_product(lowering *l, const tree *t, value a, value b)
 static value lower_product(lowering *l, const tree *t, const tree *a, value va, const tree *b, value vb)
 {
     char x[80], y[80];
-    if (va.rows || vb.rows)
-        return want_number(l, &va, a) && want_number(l, &vb, b) ? lower_matrix_product(l, t, va, vb) : wrong(l);
-    va.boolean = vb.boolean = false; /* a condition is a factor of 1 or 0 [14] */
+    if (va.rows || vb.rows) return lower_matrix_product(l, t, va, vb);
     if (va.count && vb.count) {
         COMPLAIN(l, &t->at, "two vectors have no plain product");
         HINT(l, "write dot(%s, %s), cross(%s, %s) or |v|^2", quote(l, &a->at, x), quote(l, &b->at, y), x, y);
@@ -95,10 +92,9 @@ static value lower_product(lowering *l, const tree *t, const tree *a, value va, 
     return v;
 }
 
-static value lower_quotient(lowering *l, const tree *t, const tree *a, value va, const tree *b, value vb)
+static value lower_quotient(lowering *l, const tree *t, value va, const tree *b, value vb)
 {
     char x[80];
-    if (!want_number(l, &va, a) || !want_number(l, &vb, b)) return wrong(l);
     if (vb.count) {
         COMPLAIN(l, &t->at, "nothing can be divided by a vector");
         HINT(l, "divide by its length |%s|, or by a component", quote(l, &b->at, x));
@@ -167,8 +163,8 @@ static value lower_power(lowering *l, const tree *t)
         if (failed(l)) return wrong(l);
         if (of.count) return scalar(l, norm_power(l, of, n));
     }
-    value b = lower_expression(l, base);
-    if (!want_number(l, &b, base)) return wrong(l);
+    value b = lower_numbers(l, base);
+    if (failed(l)) return wrong(l);
     if (b.count) {
         COMPLAIN(l, &t->at, "a vector has no powers");
         HINT(l, "write |%s|^2, which is dot(%s, %s)", quote(l, &base->at, x), x, x);
@@ -177,6 +173,69 @@ static value lower_power(lowering *l, const tree *t)
     if (literal) return scalar(l, graph_power(l->model->graph, b.item[0], n));
     node e = lower_scalar(l, exponent, "an exponent");
     return failed(l) ? wrong(l) : scalar(l, binary(l, OP_POW, b.item[0], e));
+}
+
+/* Makes a condition of the value of a tree, or complains. */
+static bool want_condition(lowering *l, value *v, const tree *t)
+{
+    char x[80];
+    lower_as_condition(l, v);
+    if (failed(l) || v->boolean) return !failed(l);
+    COMPLAIN(l, &t->at, "a condition is expected here");
+    HINT(l, "write a comparison, %s > 0 or %s != 0", quote(l, &t->at, x), x);
+    return false;
+}
+
+/* Lowers if(c, a, b), a number or a vector; between conditions it is a condition: c and a or not c and b. */
+static value lower_choice(lowering *l, const tree *t, value v[3])
+{
+    graph *g = l->model->graph;
+    if (!want_condition(l, &v[0], t->item[0])) return wrong(l);
+    const node c = v[0].item[0];
+    if (v[1].boolean && v[2].boolean) {
+        const node a = binary(l, OP_AND, c, v[1].item[0]);
+        const node b = binary(l, OP_AND, graph_op(g, OP_NOT, c, 0, 0), v[2].item[0]);
+        return condition(l, binary(l, OP_OR, a, b));
+    }
+    for (int k = 1; k < 3; k++) lower_as_number(l, &v[k]);
+    if (!equal_shapes(l, t, t->item[1], &v[1], t->item[2], &v[2], "or")) return wrong(l);
+    value r = vector(l, v[1].count);
+    for (int k = 0; k < (r.count ? r.count : 1); k++) r.item[k] = graph_op(g, OP_SELECT, c, v[1].item[k], v[2].item[k]);
+    return r;
+}
+
+/* Compares numbers. A condition counts as 1 or 0, and what is compared is which of the conditions hold, so that where
+ * they change is where their own sides are equal: lit == 1 is lit. */
+static node compare(lowering *l, operation op, const value *a, const value *b)
+{
+    graph *g = l->model->graph;
+    if (!a->boolean && !b->boolean) return binary(l, op, a->item[0], b->item[0]);
+    const node c = a->boolean ? a->item[0] : b->item[0];
+    node is[2]; /* where the condition is false, and where it is true */
+    for (int k = 0; k < 2; k++) {
+        const value number = scalar(l, graph_const(g, k));
+        is[k] = compare(l, op, a->boolean ? &number : a, a->boolean ? b : &number);
+    }
+    if (is[0] == is[1]) return is[0];
+    if (graph_at(g, is[0])->op == OP_CONST && graph_at(g, is[1])->op == OP_CONST)
+        return is[0] == 0 ? c : graph_op(g, OP_NOT, c, 0, 0);
+    const node yes = binary(l, OP_AND, c, is[1]), no = binary(l, OP_AND, graph_op(g, OP_NOT, c, 0, 0), is[0]);
+    return binary(l, OP_OR, yes, no);
+}
+
+static value lower_comparison(lowering *l, const tree *t)
+{
+    value side[2];
+    char shape[40];
+    for (int k = 0; k < 2; k++) {
+        side[k] = lower_expression(l, t->item[k]);
+        lower_as_decided(l, &side[k]);
+        if (!failed(l) && side[k].count)
+            COMPLAIN(l, &t->item[k]->at, "a side of a comparison is a number, but this is %s",
+                     shape_name(&side[k], shape));
+        if (failed(l)) return wrong(l);
+    }
+    return condition(l, compare(l, (operation)t->operation, &side[0], &side[1]));
 }
 
 static value lower_call(lowering *l, const tree *t)
@@ -189,23 +248,10 @@ static value lower_call(lowering *l, const tree *t)
         v[i] = lower_expression(l, t->item[i]);
         if (failed(l)) return wrong(l);
     }
-    if (t->operation == CALL_IF) {
-        lower_mode_truth(l, &v[0]);
-        if (!v[0].boolean) {
-            COMPLAIN(l, &t->item[0]->at, "a condition is expected here");
-            HINT(l, "write if(x > 0, …, …)");
-            return wrong(l);
-        }
-        if (!equal_shapes(l, t, t->item[1], &v[1], t->item[2], &v[2], "or")) return wrong(l);
-        value r = vector(l, v[1].count);
-        for (int k = 0; k < (r.count ? r.count : 1); k++)
-            r.item[k] = graph_op(l->model->graph, OP_SELECT, v[0].item[0], v[1].item[k], v[2].item[k]);
-        return r;
-    }
+    if (t->operation == CALL_IF) return lower_choice(l, t, v);
+    for (uint32_t i = 0; i < n && i < 3; i++) lower_as_number(l, &v[i]);
     if (t->operation == CALL_DOT || t->operation == CALL_CROSS) {
         bool cross = t->operation == CALL_CROSS;
-        for (int i = 0; i < 2; i++)
-            if (!want_number(l, &v[i], t->item[i])) return wrong(l);
         if (v[0].count == 0 || v[0].count != v[1].count || (cross && v[0].count > 3)) {
             char other[40];
             COMPLAIN(l, &t->at, "%s takes two vectors of %s, not %s and %s", t->name,
@@ -226,9 +272,9 @@ static value lower_call(lowering *l, const tree *t)
         return scalar(l, r);
     }
     for (uint32_t i = 0; i < n; i++)
-        if (v[i].count || v[i].boolean) {
+        if (v[i].count) {
             COMPLAIN(l, &t->item[i]->at, "%s takes numbers, but this is %s", t->name, shape_name(&v[i], shape));
-            if (v[i].count) HINT(l, "its length is |%s|, a component %s.x", quote(l, &t->item[i]->at, x), x);
+            HINT(l, "its length is |%s|, a component %s.x", quote(l, &t->item[i]->at, x), x);
             return wrong(l);
         }
     if (t->operation == OP_SIGN) return scalar(l, lower_sign(l, v[0].item[0]));
@@ -343,18 +389,14 @@ static value lower_sum_part(lowering *l, const tree *t, const sum_part *part)
     for (uint32_t i = 0; i + 1 < t->count; i++) {
         value c = lower_expression(&inner, t->item[i]);
         if (lower_cut(l->model, s.first, s.count, &cut)) return lower_sum_cut(&inner, t, part, &s, &cut, l);
-        if (failed(l)) return wrong(l);
-        if (!c.boolean) {
-            COMPLAIN(l, &t->item[i]->at, "a condition is expected here, such as j != i");
-            return wrong(l);
-        }
+        if (!want_condition(l, &c, t->item[i])) return wrong(l);
         mask = masked ? binary(l, OP_AND, mask, c.item[0]) : c.item[0];
         masked = true;
         never |= mask == 0;
     }
-    value body = lower_expression(&inner, t->item[t->count - 1]);
+    value body = lower_numbers(&inner, t->item[t->count - 1]);
     if (lower_cut(l->model, s.first, s.count, &cut)) return lower_sum_cut(&inner, t, part, &s, &cut, l);
-    if (!want_number(l, &body, t->item[t->count - 1])) return wrong(l);
+    if (failed(l)) return wrong(l);
     value v = vector(l, body.count);
     for (int k = 0; k < (v.count ? v.count : 1); k++)
         v.item[k] = never ? 0 : lower_sum_over(l, &s, masked, mask, body.item[k]);
@@ -364,12 +406,7 @@ static value lower_sum_part(lowering *l, const tree *t, const sum_part *part)
 static value lower_truth(lowering *l, const tree *t)
 {
     value v = lower_expression(l, t);
-    lower_mode_truth(l, &v);
-    if (!failed(l) && !v.boolean) {
-        COMPLAIN(l, &t->at, "and, or, not join conditions, such as x > 0");
-        return wrong(l);
-    }
-    return v;
+    return want_condition(l, &v, t) ? v : wrong(l);
 }
 
 static value lower_vector(lowering *l, const tree *t)
@@ -389,20 +426,20 @@ static value lower_right(lowering *l, const tree *t, value left)
 {
     const tree *a = t->item[0], *b = t->item[1];
     if (t->kind == TREE_AND || t->kind == TREE_OR) {
-        lower_mode_truth(l, &left);
-        if (!left.boolean) COMPLAIN(l, &a->at, "and, or, not join conditions, such as x > 0");
+        if (!want_condition(l, &left, a)) return wrong(l);
         value right = lower_truth(l, b);
         return failed(l) ? wrong(l)
                          : condition(l, binary(l, t->kind == TREE_AND ? OP_AND : OP_OR, left.item[0], right.item[0]));
     }
     if (t->kind != TREE_MULTIPLY && t->kind != TREE_DIVIDE && !lower_no_matrix(l, &left, a)) return wrong(l);
     value right = t->kind == TREE_MULTIPLY ? lower_factor(l, b) : lower_expression(l, b);
+    lower_as_number(l, &left);
+    lower_as_number(l, &right);
     if (failed(l)) return wrong(l);
     if (t->kind == TREE_ADD || t->kind == TREE_SUBTRACT) return lower_sum_of_two(l, t, a, left, b, right);
     const bool derived = left.derived || right.derived;
     if (derived) lower_tidy(l, true);
-    value v =
-        t->kind == TREE_MULTIPLY ? lower_product(l, t, a, left, b, right) : lower_quotient(l, t, a, left, b, right);
+    value v = t->kind == TREE_MULTIPLY ? lower_product(l, t, a, left, b, right) : lower_quotient(l, t, left, b, right);
     v.derived = derived;
     lower_tidy(l, false);
     return v;
@@ -457,7 +494,8 @@ value lower_tree(lowering *l, const tree *t)
     case TREE_CALL: return lower_call(l, t);
     case TREE_NEGATE:
         v = lower_factor(l, t->item[0]);
-        if (!want_number(l, &v, t->item[0])) return wrong(l);
+        lower_as_number(l, &v);
+        if (failed(l)) return wrong(l);
         value r = vector(l, v.rows ? v.rows * v.count : v.count);
         r.derived = v.derived;
         lower_tidy(l, v.derived);
@@ -467,11 +505,7 @@ value lower_tree(lowering *l, const tree *t)
         r.rows = v.rows;
         return r;
     case TREE_POWER: return lower_power(l, t);
-    case TREE_COMPARE: {
-        node a = lower_scalar(l, t->item[0], "a side of a comparison"),
-             b = lower_scalar(l, t->item[1], "a side of a comparison");
-        return failed(l) ? wrong(l) : condition(l, binary(l, (operation)t->operation, a, b));
-    }
+    case TREE_COMPARE: return lower_comparison(l, t);
     case TREE_NOT:
         v = lower_truth(l, t->item[0]);
         return failed(l) ? wrong(l) : condition(l, graph_op(g, OP_NOT, v.item[0], 0, 0));
@@ -483,8 +517,8 @@ value lower_tree(lowering *l, const tree *t)
         return wrong(l);
     case TREE_COMPONENT: return lower_component(l, lower_expression(l, t->item[0]), t->item[1], t);
     case TREE_NORM:
-        v = lower_expression(l, t->item[0]);
-        if (!want_number(l, &v, t->item[0])) return wrong(l);
+        v = lower_numbers(l, t->item[0]);
+        if (failed(l)) return wrong(l);
         return scalar(l, v.count ? graph_op(g, OP_SQRT, dot(l, v, v), 0, 0) : graph_op(g, OP_ABS, v.item[0], 0, 0));
     case TREE_SUM: return lower_sum(l, t);
     default: return lower_chain(l, t);

@@ -38,14 +38,9 @@ static bool resolve_plain(model *m, model_definition *d)
 {
     lowering l;
     lower_start(&l, m, PLACE_CONSTANT, "a parameter");
-    value v = lower_expression(&l, d->statement->value);
+    value v = lower_numbers(&l, d->statement->value);
     int n = v.count ? v.count : 1;
     if (failed(m)) return false;
-    if (v.boolean) {
-        source_complain(&m->source, MOTUS_SHAPE, &d->statement->value->at,
-                        "a parameter is a number, a vector or a list, not a condition");
-        return false;
-    }
     d->components = v.count;
     d->slot = m->scalar_used;
     if (m->scalar_used + (uint32_t)n > m->scalar_slots) {
@@ -106,10 +101,10 @@ static node *lower_entries(model *m, const tree *list, int *components)
     lowering l;
     lower_start(&l, m, PLACE_CONSTANT, "a parameter");
     for (uint32_t i = 0; i < list->count; i++) {
-        const value v = lower_expression(&l, list->item[i]);
+        const value v = lower_numbers(&l, list->item[i]);
         const size_t parts = v.count ? (size_t)v.count : 1;
         if (i == 0) *components = v.count;
-        if (!failed(m) && (v.boolean || v.count != *components))
+        if (!failed(m) && v.count != *components)
             source_complain(&m->source, MOTUS_SHAPE, &list->item[i]->at,
                             "the entries of a list are all numbers, or all vectors of one length");
         if (i == 0 && !failed(m) && !(nodes = take(&m->arena->allocator, list->count, parts * sizeof *nodes)))
@@ -268,9 +263,9 @@ static bool family_lines(model *m, model_definition *d, int rank, const uint8_t 
         if (rank_of(line, &o) != rank) continue;
         lower_extent(m, &l, &o, first, last);
         if (rank == RANK_CELL && map[model_cell(d->dims, d->first, d->last, first)] == RANK_SET) continue;
-        value v = lower_expression(&l, line->value);
+        value v = lower_numbers(&l, line->value);
         if (failed(m)) return false;
-        if (v.boolean || v.count != d->components) {
+        if (v.count != d->components) {
             source_complain(&m->source, MOTUS_SHAPE, &line->value->at,
                             "the lines of %s are all numbers, or all vectors of one length", d->name);
             return false;
@@ -302,7 +297,7 @@ static bool resolve_family(model *m, model_definition *d)
     lowering l;
     output o;
     if (!open_line(m, d, s, &l, &o)) return false;
-    value v = lower_expression(&l, s->value);
+    value v = lower_numbers(&l, s->value);
     if (failed(m)) return false;
     int parts = v.count ? v.count : 1;
     d->list = true;

@@ -65,14 +65,14 @@ static bool line_value(model *m, model_state *s, const statement *one, lowering 
 {
     lower_start(l, m, PLACE_CONSTANT, "an initial value");
     if (!lower_target(l, one, o)) return false;
-    *v = lower_expression(l, one->value);
+    *v = lower_numbers(l, one->value);
     if (failed(m)) return false;
-    if (v->boolean || (s->shaped && v->count != s->components)) {
+    if (s->shaped && v->count != s->components) {
         char now[40], before[40];
         snprintf(now, sizeof now, v->count ? "a vector of length %d" : "a number", v->count);
         snprintf(before, sizeof before, s->components ? "a vector of length %d" : "a number", s->components);
         source_complain(&m->source, MOTUS_SHAPE, &one->value->at, "%s%s at the start is %s here, but %s before",
-                        s->name, one->primes ? "'" : "", v->boolean ? "a condition" : now, before);
+                        s->name, one->primes ? "'" : "", now, before);
         return false;
     }
     return s->shaped || give_shape(m, s, one, v->count);

@@ -33,7 +33,7 @@ static bool part(model *m, const statement *s, const model_state *state, const l
 {
     lowering l = *of;
     model_cut cut;
-    value v = lower_expression(&l, s->value);
+    value v = lower_numbers(&l, s->value);
     if (lower_cut(m, 0, o.loops, &cut)) return divide(m, s, state, of, &o, &cut, into);
     if (m->graph->too_large)
         source_complain(&m->source, MOTUS_LIMIT, &s->at,
@@ -87,7 +87,7 @@ static bool given_motion(model *m, const statement *s, lower_place place, const 
     lower_start(&l, m, place, what);
     if ((int)s->index_count != state->dims) { return hull_indices_wrong(m, state, s->at); }
     if (!lower_target(&l, s, &o)) return false;
-    value v = lower_expression(&l, s->value);
+    value v = lower_numbers(&l, s->value);
     if (source_failed(&m->source) || !lower_fits(m, s, state, v, what)) return false;
     for (int k = 0; k < (v.count ? v.count : 1); k++) {
         *timed |= (graph_deps(m->graph, v.item[k]) & DEP_TIME) != 0;
@@ -109,7 +109,7 @@ static bool values(model *m, const model_definition *d, const lowering *of, outp
     const statement *s = d->statement;
     lowering l = *of;
     model_cut cut;
-    value v = lower_expression(&l, s->value);
+    value v = lower_numbers(&l, s->value);
     if (lower_cut(m, 0, o.loops, &cut)) {
         for (int after = 0; after < 2; after++) {
             output one = o;
@@ -121,11 +121,6 @@ static bool values(model *m, const model_definition *d, const lowering *of, outp
         return true;
     }
     if (source_failed(&m->source)) return false;
-    if (v.boolean) {
-        source_complain(&m->source, MOTUS_SHAPE, &s->value->at, "%s is a condition, not a number", d->name);
-        source_hint(&m->source, "write if(condition, 1, 0)");
-        return false;
-    }
     *components = v.count;
     for (int k = 0; k < (v.count ? v.count : 1); k++) {
         o.value = v.item[k];

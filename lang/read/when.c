@@ -111,15 +111,27 @@ static bool lower_condition(model *m, model_rule *r, lowering *l)
     const tree *t = r->statement->when->left;
     char text[80];
     value v = lower_expression(l, t);
-    lower_mode_truth(l, &v);
+    lower_as_condition(l, &v);
     if (!whole(m, r) || failed(m)) return false;
     if (!v.boolean) {
         COMPLAIN(m, &t->at, "an event happens when a condition becomes true, or where two numbers are equal");
-        HINT(m, "write when %s = 0: …, or a comparison", quote(m, &t->at, text));
+        HINT(m, "write when %s = 0: …, or a comparison, when %s != 0: …", quote(m, &t->at, text), text);
         return false;
     }
     r->formula = arena_take(m->arena, RULE_FORMULA_MOST * sizeof *r->formula);
     return !m->arena->failed && add_condition(m, r, v.item[0], 0);
+}
+
+/* Refuses a condition as a side of an equation: its number jumps past all numbers between 0 and 1. */
+static bool no_condition(model *m, lowering *l, const tree *t, node n)
+{
+    char text[80];
+    value v = {.item = &n};
+    lower_as_decided(l, &v);
+    if (failed(m) || !v.boolean) return !failed(m);
+    COMPLAIN(m, &t->at, "%s is a condition, and one = in an event stands between two numbers", quote(m, &t->at, text));
+    HINT(m, "write `when %s: …` for where it becomes true, `when not %s: …` for where it becomes false", text, text);
+    return false;
 }
 
 static bool lower_equation(model *m, model_rule *r, lowering *l)
@@ -127,6 +139,7 @@ static bool lower_equation(model *m, model_rule *r, lowering *l)
     const when *w = r->statement->when;
     const node a = lower_scalar(l, w->left, "the left side of an event");
     const node b = failed(m) ? 0 : lower_scalar(l, w->right, "the right side of an event");
+    if (!no_condition(m, l, w->left, a) || !no_condition(m, l, w->right, b)) return false;
     if (!whole(m, r) || failed(m)) return false;
     add_leaf(m, r, difference(m->graph, a, b), RULE_ABOVE);
     return true;
@@ -268,19 +281,18 @@ static bool lower_assignment(model *m, model_rule *r, lowering *l, const action 
     char text[80], other[80];
     if (!may_assign(m, l, a->target)) return false;
     const value to = lower_expression(l, a->target);
-    const value is = failed(m) ? to : lower_expression(l, a->value);
+    const value is = failed(m) ? to : lower_numbers(l, a->value);
     if (!whole(m, r) || failed(m)) return false;
-    if (is.boolean || is.rows || is.count != to.count) {
+    if (is.rows || is.count != to.count) {
         quote(m, &a->target->at, text);
         if (to.count)
             COMPLAIN(m, &a->value->at, "%s is a vector of length %d, but this is %s", text, to.count,
-                     is.boolean || is.rows ? "a condition or a matrix"
-                     : is.count            ? "of another length"
-                                           : "a number");
+                     is.rows    ? "a matrix"
+                     : is.count ? "of another length"
+                                : "a number");
         else
-            COMPLAIN(m, &a->value->at, "%s is a number, but this is %s", text, is.boolean ? "a condition" : "a vector");
+            COMPLAIN(m, &a->value->at, "%s is a number, but this is a vector", text);
         if (!to.count && is.count) HINT(m, "assign a component: %s.x", quote(m, &a->value->at, other));
-        if (is.boolean) HINT(m, "write if(condition, 1, 0)");
         return false;
     }
     for (int k = 0; k < (to.count ? to.count : 1); k++)

@@ -203,38 +203,45 @@ static int relation(const parser *p)
     }
 }
 
-/* Refuses 0 < x < 1, of which the first two operands and the sign between them have been read. */
-static void refuse_chain(parser *p, const tree *left, const span *sign, const tree *middle)
+/* Returns whether a chain goes on the same way: a < b <= c, a == b == c. */
+static bool one_way(int before, int after)
 {
-    const span second = p->token.at;
-    char a[80], b[80], c[80], one[80], two[80];
-    advance(p);
-    skip_lines(p);
-    const tree *right = parse_terms(p);
-    if (failed(p)) return;
-    COMPLAIN(p, &second, "comparisons are not chained");
-    HINT(p, "write %s %s %s and %s %s %s", quote(p, &left->at, a), quote(p, sign, one), quote(p, &middle->at, b), b,
-         quote(p, &second, two), quote(p, &right->at, c));
+    const bool less = before == OP_LT || before == OP_LE, greater = before == OP_GT || before == OP_GE;
+    return less      ? after == OP_LT || after == OP_LE
+           : greater ? after == OP_GT || after == OP_GE
+                     : before == OP_EQ && after == OP_EQ;
 }
 
-/* comparison = sum [ ("<" | "<=" | ">" | ">=" | "==" | "!=") sum ] */
+/* Refuses a < b > c, whose last sign is at a place. */
+static void refuse_chain(parser *p, const tree *before, const span *sign, const tree *last)
+{
+    char a[80], b[80], c[80];
+    COMPLAIN(p, sign, "a chain of comparisons goes one way, as a < b < c or a >= b >= c");
+    HINT(p, "write %s and %s %s %s", quote(p, &before->at, a), quote(p, &before->item[1]->at, b),
+         source_excerpt(p->source, sign, (char[8]){0}, 8), quote(p, &last->at, c));
+}
+
+/* comparison = sum { ("<" | "<=" | ">" | ">=" | "==" | "!=") sum }: a < b < c is a < b and b < c [14] */
 static tree *parse_comparison(parser *p)
 {
-    tree *t = parse_terms(p);
-    int operation = failed(p) ? -1 : relation(p);
-    if (operation < 0) return t;
-    const span sign = p->token.at;
-    advance(p);
-    skip_lines(p);
-    tree *right = parse_terms(p);
-    if (failed(p)) return t;
-    if (relation(p) >= 0) {
-        refuse_chain(p, t, &sign, right);
-        return t;
+    tree *side = parse_terms(p), *before = NULL, *all = NULL;
+    int operation;
+    while (!failed(p) && (operation = relation(p)) >= 0) {
+        const span sign = p->token.at;
+        advance(p);
+        skip_lines(p);
+        tree *right = parse_terms(p);
+        if (failed(p)) break;
+        if (before && !one_way(before->operation, operation)) {
+            refuse_chain(p, before, &sign, right);
+            break;
+        }
+        before = two(p, TREE_COMPARE, side, right);
+        before->operation = (int16_t)operation;
+        all = all ? two(p, TREE_AND, all, before) : before;
+        side = right;
     }
-    t = two(p, TREE_COMPARE, t, right);
-    t->operation = operation;
-    return t;
+    return all ? all : side;
 }
 
 /* not = "not" not | comparison */

@@ -47,11 +47,19 @@ static bool names_slope(const tree *diff)
     return typeset_head(diff->item[0], &h);
 }
 
+/* Returns whether a < b and b < c was written a < b < c: then b is one tree. */
+static bool chained(const tree *t)
+{
+    if (t->kind != TREE_AND || t->item[1]->kind != TREE_COMPARE) return false;
+    const tree *before = t->item[0]->kind == TREE_AND ? t->item[0]->item[1] : t->item[0];
+    return before->kind == TREE_COMPARE && before->item[1] == t->item[1]->item[0];
+}
+
 static tight tight_of(const typesetter *p, const tree *t, bool small)
 {
     switch (t->kind) {
     case TREE_OR: return TIGHT_OR;
-    case TREE_AND: return TIGHT_AND;
+    case TREE_AND: return chained(t) ? TIGHT_COMPARE : TIGHT_AND;
     case TREE_NOT: return TIGHT_NOT;
     case TREE_COMPARE: return TIGHT_COMPARE;
     case TREE_ADD:
@@ -155,6 +163,7 @@ static bool shortened(typesetter *p, const tree *t, place at)
 
 static void infix(typesetter *p, const tree *t, place at, tight a, uint32_t follow, const char *sign, tight b)
 {
+    const tree *right = chained(t) ? t->item[1]->item[1] : t->item[1];
     place of_left = place_left(at, a, follow);
     if (chain_of(t->kind) && chain_of(t->item[0]->kind) == chain_of(t->kind))
         of_left = (of_left | PLACE_CHAIN) - PLACE_LEVEL;
@@ -162,8 +171,8 @@ static void infix(typesetter *p, const tree *t, place at, tight a, uint32_t foll
     if (sign)
         typeset_sign(p, sign);
     else
-        times(p, t->item[0], t->item[1], at);
-    typeset_then(p, t->item[1], place_last(at, b));
+        times(p, t->item[0], right, at);
+    typeset_then(p, right, place_last(at, b));
 }
 
 /* Sums, calls, powers, quotients ----------------------------------------------------------------------------------- */
@@ -297,7 +306,13 @@ static void unbracketed(typesetter *p, const tree *t, place at)
     case TREE_DIVIDE: quotient(p, t, at); return;
     case TREE_POWER: power(p, t, at); return;
     case TREE_COMPARE: infix(p, t, at, TIGHT_MOD, FOLLOW_TERM, relations[t->operation - OP_LT], TIGHT_MOD); return;
-    case TREE_AND: infix(p, t, at, TIGHT_AND, FOLLOW_TERM, "<mtext>&#xA0;and&#xA0;</mtext>", TIGHT_NOT); return;
+    case TREE_AND:
+        if (chained(t)) {
+            infix(p, t, at, TIGHT_COMPARE, FOLLOW_TERM, relations[t->item[1]->operation - OP_LT], TIGHT_MOD);
+            return;
+        }
+        infix(p, t, at, TIGHT_AND, FOLLOW_TERM, "<mtext>&#xA0;and&#xA0;</mtext>", TIGHT_NOT);
+        return;
     case TREE_OR: infix(p, t, at, TIGHT_OR, FOLLOW_TERM, "<mtext>&#xA0;or&#xA0;</mtext>", TIGHT_AND); return;
     case TREE_NOT:
         typeset_sign(p, "<mtext>not&#xA0;</mtext>");
