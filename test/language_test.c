@@ -787,6 +787,59 @@ static void rule_16_set(void **unused)
     assert_non_null(strstr(err.message, "the model has no function W"));
 }
 
+/* What stands on the left side besides the highest derivative goes to the right side. */
+static void rule_20_left_sides(void **unused)
+{
+    (void)unused;
+    static const char *const cases[][2] = {
+        {"m x'' = -k x", "x'' = (-k x)/m"},
+        {"x'' m = -k x", "x'' = (-k x)/m"},
+        {"m*x'' = -k x", "x'' = (-k x)/m"},
+        {"x'' (m + k) = -x", "x'' = (-x)/(m + k)"},
+        {"(m + k) x'' = -x", "x'' = (-x)/(m + k)"},
+        {"2 m x'' = -x", "x'' = (-x)/(2 m)"},
+        {"|x| x'' = sqrt(m)", "x'' = sqrt(m)/abs(x)"},
+        {"sqrt(m) x'' = -x", "x'' = (-x)/sqrt(m)"},
+        {"V(x) x'' = -x", "x'' = (-x)/x^2"},
+        {"m x'' + c x' + k x = F cos(t)", "x'' = (F cos(t) - k x - c x')/m"},
+        {"x'' + k x = 0", "x'' = -k x"},
+        {"-x'' = k x", "x'' = -k x"},
+        {"k x - x'' = m", "x'' = k x - m"},
+        {"k x - x'' = 0", "x'' = k x"},
+        {"x'' - k x = 0", "x'' = k x"},
+        {"F = k x + 0\nx''/m = F", "x'' = (k x + 0) m"},
+        {"2 (x'' + x)/m = F", "x'' = F m/2 - x"},
+        {"x'' + x' x(0) = 0", "x'' = -x' x(0)"},
+        {"0 = x'' + k x", "x'' = -k x"},
+        {"-k x = m x''", "x'' = (-k x)/m"},
+        {"c x' = -x''", "x'' = -c x'"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[512];
+        snprintf(text, sizeof text, "m = 2\nk = 3\nc = 4\n%s\n%s\nV(q) = q^2\nx(0) = 1\nx'(0) = 0\n",
+                 strstr(cases[i][0], "F =") ? "" : "F = 5", cases[i][0]);
+        motus_system *s = given_text(text);
+        assert_string_equal(motus_equation_text(s, 0), cases[i][1]);
+        motus_system_destroy(s);
+    }
+}
+
+/* The highest derivative of a state stands for the right side of its equation, cell by cell. */
+static void rule_20_rates(void **unused)
+{
+    (void)unused;
+    motus_system *s = given_text("u[1]'' = -u[1]\nu[i]'' = -i u[i] for i = 2..3\nu[i](0) = i for i = 1..3\n"
+                                 "u[i]'(0) = 0 for i = 1..3\ns' = u[3]''^2 + a\na = u[1]''\ns(0) = 0\n"
+                                 "p[i]' = u[i]'' s' for i = 1..3\np[i](0) = 0 for i = 1..3\n"
+                                 "when u[2]'' = 1 as e: record\nk = at(e, u[2]'')\nq = sum(i = 1..3: u[i]'')\n");
+    static const char *const texts[] = {"u[1]'' = -u[1]", "u[i]'' = -i u[i]", "s' = (-3 u[3])^2 - u[1]",
+                                        "p[1]' = (-u[1]) ((-3 u[3])^2 - u[1])",
+                                        "p[i]' = (-i u[i]) ((-3 u[3])^2 - u[1])"};
+    for (size_t k = 0; k < sizeof texts / sizeof *texts; k++) assert_string_equal(motus_equation_text(s, k), texts[k]);
+    assert_null(motus_equation_text(s, sizeof texts / sizeof *texts));
+    motus_system_destroy(s);
+}
+
 static void rule_17_derivatives(void **unused)
 {
     (void)unused;
@@ -1067,6 +1120,8 @@ int main(void)
         cmocka_unit_test(rule_16_refused),
         cmocka_unit_test(rule_16_doubling),
         cmocka_unit_test(rule_16_set),
+        cmocka_unit_test(rule_20_left_sides),
+        cmocka_unit_test(rule_20_rates),
         cmocka_unit_test(rule_17_derivatives),
         cmocka_unit_test(rule_17_many_cells),
         cmocka_unit_test(rule_17_forces),

@@ -46,6 +46,12 @@ typedef enum lower_place {
     PLACE_QUANTITY
 } lower_place;
 
+/* The equations whose right sides are being lowered, each inside the next (lower_rate.c). */
+typedef struct lower_rates {
+    const statement *line;
+    const struct lower_rates *up;
+} lower_rates;
+
 typedef struct lowering {
     model *model;
     lower_place place;
@@ -57,6 +63,7 @@ typedef struct lowering {
     int64_t low[MAX_LEVELS], high[MAX_LEVELS]; /* by level: its range */
     double terms;                              /* how often an evaluation of the model evaluates the expression */
     int chain;
+    const lower_rates *rates;
     bool by_variable; /* the variable of a diff is being lowered */
 } lowering;
 

@@ -199,20 +199,7 @@ static value expand(lowering *l, const tree *t, const model_state *s, model_ghos
                         MODEL_CHAIN_MAX);
         return wrong(l);
     }
-    for (int d = 0; d < s->dims; d++) {
-        const tree *name = line->index[d];
-        bool loops = false;
-        for (uint32_t k = 0; k < line->loop_count && name->kind == TREE_NAME; k++)
-            loops |= !strcmp(line->loops[k].name, name->name);
-        if (!loops) continue;
-        const node constant = r->at[d].slot >= 0 ? l->model->int_nodes[r->at[d].slot] : 0;
-        inner.names[inner.name_count++] = (index_name){.name = name->name,
-                                                       .at = r->at[d],
-                                                       .constant = constant,
-                                                       .number = lower_subscript_number(l, &r->at[d]),
-                                                       .first = low[d],
-                                                       .last = high[d]};
-    }
+    lower_add_places(&inner, line, r, low, high);
     g->expanding = true;
     value v = lower_numbers(&inner, line->value);
     g->expanding = false;
@@ -220,18 +207,17 @@ static value expand(lowering *l, const tree *t, const model_state *s, model_ghos
     return t->primes == 1 && s->order == 2 ? velocity(l, t, v) : v;
 }
 
-/* Asks for a cut at the first border of the cells that a range crosses. */
-static void ask(lowering *l, const tree *t, const model_state *s, const model_ghost *g, const reference *r,
-                const int64_t low[], const int64_t high[])
+void lower_ask_cut(lowering *l, const tree *t, int dims, const int64_t first[], const int64_t last[],
+                   const reference *r, const int64_t low[], const int64_t high[])
 {
-    for (int d = 0; d < s->dims; d++) {
-        if (low[d] >= g->first[d] && high[d] <= g->last[d]) continue;
+    for (int d = 0; d < dims; d++) {
+        if (low[d] >= first[d] && high[d] <= last[d]) continue;
         const int level = r->at[d].level;
         if (level < 0 || r->at[d].modulus >= 0) {
-            COMPLAIN(l, &t->item[d]->at, "a wrapped index cannot reach cells whose boundary line depends on a state");
+            COMPLAIN(l, &t->item[d]->at, "a wrapped index cannot reach cells that several lines give");
             return;
         }
-        const int64_t border = low[d] < g->first[d] ? g->first[d] : g->last[d] + 1;
+        const int64_t border = low[d] < first[d] ? first[d] : last[d] + 1;
         l->model->cut = (model_cut){true, level, l->low[level] + border - low[d]};
         return;
     }
@@ -253,7 +239,7 @@ bool lower_ghost(lowering *l, const tree *t, const model_state *s, const referen
                      "%s follows from other cells by its boundary line, so nothing can be differentiated by it",
                      quote(l, &t->at, text));
         } else if (!inside) {
-            ask(l, t, s, g, r, low, high);
+            lower_ask_cut(l, t, s->dims, g->first, g->last, r, low, high);
         }
         *out = failed(l) ? wrong(l) : expand(l, t, s, g, r, low, high);
         return true;

@@ -12,6 +12,9 @@ bool lower_add_ghost(model *, model_state *, const statement *, const int64_t fi
 bool lower_ghost(lowering *, const tree *, const model_state *, const reference *r, const int64_t low[],
                  const int64_t high[], value *out);
 
+/* Asks for a cut at the first border of the cells [first, last] that [low, high], which r reads, crosses. */
+void lower_ask_cut(lowering *, const tree *, int dims, const int64_t first[], const int64_t last[], const reference *r,
+                   const int64_t low[], const int64_t high[]);
 /* Takes a cut that was asked for in one of the levels first, first + 1, … What was lowered is then void: the range of
  * out->level is to be divided before the index out->at, and each part lowered. */
 bool lower_cut(model *, int first, int count, model_cut *out);

@@ -221,6 +221,24 @@ bool lower_add_index(lowering *l, const loop *loop, int level, int64_t first, in
     return true;
 }
 
+void lower_add_places(lowering *l, const statement *line, const reference *r, const int64_t low[], const int64_t high[])
+{
+    for (int d = 0; d < r->dims; d++) {
+        const tree *name = line->index[d];
+        bool loops = false;
+        for (uint32_t k = 0; k < line->loop_count && name->kind == TREE_NAME; k++)
+            loops |= !strcmp(line->loops[k].name, name->name);
+        if (!loops) continue;
+        const node constant = r->at[d].slot >= 0 ? l->model->int_nodes[r->at[d].slot] : 0;
+        l->names[l->name_count++] = (index_name){.name = name->name,
+                                                 .at = r->at[d],
+                                                 .constant = constant,
+                                                 .number = lower_subscript_number(l, &r->at[d]),
+                                                 .first = low[d],
+                                                 .last = high[d]};
+    }
+}
+
 /* Reads the range of a loop; [*low, *high] contains every value of its index, for all values of outer indices. */
 bool lower_range(lowering *l, const loop *loop, range *out, int64_t *low, int64_t *high)
 {

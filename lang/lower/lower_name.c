@@ -97,23 +97,12 @@ static void place_error(lowering *l, const tree *t, const char *is)
 
 static value lower_state(lowering *l, const tree *t, model_state *s)
 {
-    char text[80];
     if (l->place == PLACE_CONSTANT || l->place == PLACE_EXACT || l->place == PLACE_BOUNDARY) {
         place_error(l, t, "a state");
         return wrong(l);
     }
     if (t->primes > s->order) {
         COMPLAIN(l, &t->at, "%s has an equation of first order: %s'' is not known", s->name, s->name);
-        return wrong(l);
-    }
-    if (t->primes == s->order && l->place == PLACE_EVENT) {
-        COMPLAIN(l, &t->at, "an event reads the state, and %s follows from it", quote(l, &t->at, text));
-        HINT(l, "write the right side of its equation in its place");
-        return wrong(l);
-    }
-    if (t->primes == s->order && l->place != PLACE_QUANTITY) {
-        COMPLAIN(l, &t->at, "%s stands on the right side of an equation", quote(l, &t->at, text));
-        HINT(l, "solve the equations for the highest derivatives; %s may stand in quantities and invariants", text);
         return wrong(l);
     }
     if (!start_state(l->model, s)) return wrong(l);
@@ -136,6 +125,7 @@ static value lower_state(lowering *l, const tree *t, model_state *s)
     }
     if (!select && (!subscripts(l, t, s->dims, &r, low, high) || (s->dims > 0 && !covered(l, s, t, low, high))))
         return wrong(l);
+    if (t->primes == s->order && l->place != PLACE_QUANTITY) return lower_rate(l, t, s, &r, low, high);
     value ghost;
     if (!select && s->ghosts && lower_ghost(l, t, s, &r, low, high, &ghost)) return ghost;
     /* a first-order variable and its rate are in V and A; a position, its velocity and acceleration in X, V and A */

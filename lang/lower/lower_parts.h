@@ -78,6 +78,8 @@ static inline const char *shape_name(const value *v, char out[40])
 const index_name *lower_find_index(const lowering *, const char *name);
 bool lower_add_index(lowering *, const loop *, int level, int64_t first, int64_t last);
 bool lower_range(lowering *, const loop *, range *, int64_t *low, int64_t *high);
+/* Makes the indices of a line known as the subscripts of a reference to one of its cells, which are in [low, high]. */
+void lower_add_places(lowering *, const statement *line, const reference *, const int64_t low[], const int64_t high[]);
 
 /* Returns the value of a subscript as a node. */
 node lower_subscript_number(lowering *, const subscript *);
@@ -89,6 +91,10 @@ value lower_function(lowering *, const tree *call, model_function *);
 
 /* lower_kept.c */
 value lower_kept(lowering *, const tree *call);
+
+/* lower_rate.c: returns the highest derivative of a state, where an equation or an event reads it */
+value lower_rate(lowering *, const tree *, const model_state *, const reference *, const int64_t low[],
+                 const int64_t high[]);
 
 /* lower_diff.c */
 value lower_diff(lowering *, const tree *call);

@@ -95,6 +95,11 @@ static value lower_product(lowering *l, const tree *t, const tree *a, value va, 
 static value lower_quotient(lowering *l, const tree *t, value va, const tree *b, value vb)
 {
     char x[80];
+    if (vb.rows) {
+        COMPLAIN(l, &t->at, "nothing can be divided by a matrix");
+        HINT(l, "multiply by its inverse, a matrix of its own: W = [[…], […]], then W x");
+        return wrong(l);
+    }
     if (vb.count) {
         COMPLAIN(l, &t->at, "nothing can be divided by a vector");
         HINT(l, "divide by its length |%s|, or by a component", quote(l, &b->at, x));
@@ -303,8 +308,7 @@ static value lower_sum_cut(const lowering *inner, const tree *t, const sum_part 
     const range *of = &s->ranges[cut->level - s->first];
     const uint32_t k = s->index[cut->level - s->first];
     if (of->first.level >= 0 || of->last.level >= 0) {
-        COMPLAIN(l, &t->loops[k].at, "the index %s reaches cells whose boundary line depends on a state",
-                 t->loops[k].name);
+        COMPLAIN(l, &t->loops[k].at, "the index %s reaches cells that several lines give", t->loops[k].name);
         HINT(l, "its range cannot depend on another index then: write the sum without these cells");
         return wrong(l);
     }
@@ -431,8 +435,9 @@ static value lower_right(lowering *l, const tree *t, value left)
         return failed(l) ? wrong(l)
                          : condition(l, binary(l, t->kind == TREE_AND ? OP_AND : OP_OR, left.item[0], right.item[0]));
     }
-    if (t->kind != TREE_MULTIPLY && t->kind != TREE_DIVIDE && !lower_no_matrix(l, &left, a)) return wrong(l);
-    value right = t->kind == TREE_MULTIPLY ? lower_factor(l, b) : lower_expression(l, b);
+    const bool factor = t->kind == TREE_MULTIPLY || t->kind == TREE_DIVIDE;
+    if (!factor && !lower_no_matrix(l, &left, a)) return wrong(l);
+    value right = factor ? lower_factor(l, b) : lower_expression(l, b);
     lower_as_number(l, &left);
     lower_as_number(l, &right);
     if (failed(l)) return wrong(l);

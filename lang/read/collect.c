@@ -257,6 +257,34 @@ static bool add_line(model *m, uint32_t text, bool event)
     return false;
 }
 
+static bool derives(const tree *t)
+{
+    for (; t; t = t->count ? t->item[0] : NULL) {
+        if (t->kind == TREE_NAME && t->primes) return true;
+        for (uint32_t i = 1; i < t->count; i++)
+            if (derives(t->item[i])) return true;
+    }
+    return false;
+}
+
+/* Complains that there is no equation of motion; F = m x'' may be meant as one. */
+static bool no_equation(model *m)
+{
+    source *s = &m->source;
+    const statement *meant = NULL;
+    for (uint32_t i = 0; i < m->statements.count && !meant; i++)
+        if (m->statements.item[i].kind == STATEMENT_DEFINITION && derives(m->statements.item[i].value))
+            meant = &m->statements.item[i];
+    source_complain(s, MOTUS_SYNTAX, meant ? &meant->at : &(span){0, 0, 0}, "there is no equation of motion");
+    char text[80];
+    if (meant)
+        source_hint(s, "this line defines %s; an equation has its derivative on the left: %s = %s", meant->name,
+                    source_excerpt(s, &meant->value_at, text, sizeof text), meant->name);
+    else
+        source_hint(s, "write one: x'' = -x");
+    return false;
+}
+
 bool collect_all(model *m, const motus_text_def *def)
 {
     if (!parse_text(&m->source, 0, &m->statements)) return false;
@@ -299,10 +327,5 @@ bool collect_all(model *m, const motus_text_def *def)
             state->line = i + 1;
         state->last_line = i + 1;
     }
-    if (m->state_count == 0) {
-        source_complain(&m->source, MOTUS_SYNTAX, &(span){0, 0, 0}, "there is no equation of motion");
-        source_hint(&m->source, "write one: x'' = -x");
-        return false;
-    }
-    return true;
+    return m->state_count || no_equation(m);
 }

@@ -42,12 +42,6 @@ static bool part(model *m, const statement *s, const model_state *state, const l
         return false;
     for (int k = 0; into && k < (v.count ? v.count : 1); k++) {
         o.value = v.item[k];
-        if (graph_deps(m->graph, o.value) & DEP_A) {
-            source_complain(&m->source, MOTUS_SHAPE, &s->value->at,
-                            "an equation cannot use a quantity that contains an acceleration");
-            source_hint(&m->source, "solve the equations for the highest derivatives");
-            return false;
-        }
         o.to.array = (uint16_t)(m->block[BLOCK_A] + state->array + k);
         if (!add(m, into, &o)) return false;
     }
@@ -74,6 +68,8 @@ static bool equation(model *m, const statement *s, outputs *into)
     lowering l;
     output o = {0};
     lower_start(&l, m, PLACE_EQUATION, into ? "an equation" : "a boundary line");
+    const lower_rates here = {s, NULL};
+    l.rates = &here;
     return lower_target(&l, s, &o) && part(m, s, state, &l, o, into);
 }
 

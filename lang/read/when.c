@@ -34,8 +34,7 @@ static bool whole(model *m, const model_rule *r)
 {
     model_cut cut;
     if (!lower_cut(m, 0, r->loops, &cut)) return true;
-    COMPLAIN(m, &r->statement->at,
-             "for some of its indices this event reads a cell whose boundary line depends on a state");
+    COMPLAIN(m, &r->statement->at, "for some of its indices this event reads cells that another line gives");
     HINT(m, "write two events, one for the indices at the border and one for the others");
     return false;
 }

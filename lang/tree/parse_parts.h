@@ -1,5 +1,5 @@
 /* The parser's state and helpers. Each file uses only those before it on this list: parse_factor.c (operands), parse.c
- * (operators), parse_when.c (events), parse_statement.c (statements). */
+ * (operators), parse_solve.c (left sides that are sums), parse_when.c (events), parse_statement.c (statements). */
 #ifndef LANG_TREE_PARSE_PARTS_H
 #define LANG_TREE_PARSE_PARTS_H
 
@@ -190,6 +190,10 @@ tree *parse_applied(parser *p, tree *name);
 tree *parse_factor(parser *p);
 /* parse.c */
 tree *parse_or(parser *p);
+/* parse_solve.c; parse_sum_left reads the left side, which is more than a derivative, from the beginning of a statement
+ * that has a derivative; the value is due then, and parse_solve solves the equation. */
+bool parse_sum_left(parser *p, statement *s);
+void parse_solve(parser *p, statement *s);
 /* parse_when.c; parse_action says whether a misplaced text begins with the word of an action */
 void parse_when(parser *p, statement *s);
 bool parse_action(const parser *p, const span *at);

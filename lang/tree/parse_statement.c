@@ -130,6 +130,7 @@ static bool parse_leibniz(parser *p, const statement *s)
 /* left = name [ index ] [ primes ] [ "(" or ")" ] */
 static void parse_left(parser *p, statement *s)
 {
+    if (p->token.kind != TOKEN_NAME && parse_sum_left(p, s)) return;
     if (p->token.kind != TOKEN_NAME) {
         lexer ahead = p->lexer;
         token next = is(p, '/') ? lex_next(&ahead) : p->token;
@@ -146,6 +147,7 @@ static void parse_left(parser *p, statement *s)
     s->name_at = p->token.at;
     s->name = copy_name(p, &p->token.at);
     if (words_reserved(s->name) || words_function(s->name) >= 0 || !strcmp(s->name, "sum")) {
+        if (words_function(s->name) >= 0 && strcmp(s->name, "if") && parse_sum_left(p, s)) return;
         if (!strcmp(s->name, "t"))
             COMPLAIN(p, &s->name_at, "t is the time and cannot be defined");
         else
@@ -169,7 +171,7 @@ static void parse_left(parser *p, statement *s)
         advance(p);
     }
     s->kind = s->primes ? STATEMENT_EQUATION : STATEMENT_DEFINITION;
-    if (is(p, '(')) {
+    if (is(p, '(') && !(p->token.blank && s->primes == 2)) {
         if (p->token.blank) {
             COMPLAIN(p, &p->token.at, "the bracket of an initial value stands directly behind the name");
             HINT(p, "write %s%s(0) = …", s->name, s->primes == 1 ? "'" : "");
@@ -204,29 +206,11 @@ static void parse_left(parser *p, statement *s)
     } else if (is(p, '.')) {
         COMPLAIN(p, &p->token.at, "a component cannot be given alone");
         HINT(p, "give the whole vector: %s = (…, …)", s->name);
-    } else if (s->kind == STATEMENT_EQUATION && (is(p, '+') || is(p, '-'))) {
-        COMPLAIN(p, &p->token.at, "the left side of an equation is the highest derivative alone");
-        HINT(p, "solve for it: %s%s = …", s->name, s->primes == 2 ? "''" : "'");
-    } else if (p->token.kind == TOKEN_NAME || is(p, '*')) {
-        if (is(p, '*')) advance(p);
-        lexer ahead = p->lexer;
-        token next = lex_next(&ahead);
-        char text[80];
-        if (p->token.kind == TOKEN_NAME && next.kind == TOKEN_PRIMES) {
-            quote(p, &p->token.at, text);
-            COMPLAIN(p, &s->at, "the left side of an equation is the highest derivative alone");
-            HINT(p, "divide: %s%s = (…)/%s", text, next.primes == 1 ? "'" : "''", s->name);
-        } else if (p->token.kind == TOKEN_NAME) {
-            unexpected(p, "=");
-            char near[80];
-            if (words_nearest_statement(s->name, near, sizeof near)) HINT(p, "did you mean %s?", near);
-        } else {
-            unexpected(p, "=");
-        }
-    } else {
+    } else if (p->token.kind == TOKEN_EQ || !parse_sum_left(p, s)) {
         char near[80];
         unexpected(p, "=");
-        if (p->token.kind == TOKEN_NUMBER && words_nearest_statement(s->name, near, sizeof near))
+        if ((p->token.kind == TOKEN_NUMBER || p->token.kind == TOKEN_NAME) &&
+            words_nearest_statement(s->name, near, sizeof near))
             HINT(p, "did you mean %s?", near);
     }
 }
@@ -273,6 +257,7 @@ static void parse_statement(parser *p, statement *s)
         s->kind = exact ? STATEMENT_EXACT : STATEMENT_INVARIANT;
     }
     parse_value(p, s);
+    if (s->kind == STATEMENT_EQUATION && s->applied && !failed(p)) parse_solve(p, s);
 }
 
 /* Estimates the number of statements: one for each = that stands alone. */
