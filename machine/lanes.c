@@ -95,6 +95,8 @@ const char *lanes_refuse(const lanes_def *d)
     uint32_t count;
     const vary_active *active = vary_entries(d->vary, &count);
     for (uint32_t k = 0; k < count; k++)
+        if (active[k].entry->table) return "the numbers of a table vary: trajectories are computed one at a time";
+    for (uint32_t k = 0; k < count; k++)
         if (active[k].entry->map) return "initial values of a family vary: trajectories are computed one at a time";
     return NULL;
 }

@@ -205,6 +205,16 @@ static void name(void *ctx, size_t number, size_t instance, char *out, size_t si
 
 /* ---- all switches ---- */
 
+/* Puts the true positions of values in tables beside the arguments. A side that may be any tells only of the points
+ * around it. */
+static void find_rows(const sides *s, double t, double *x, double *v, double *argument)
+{
+    if (!s->position) return;
+    sides_evaluate(s, s->position, t, x, v, NULL, s->later);
+    for (size_t k = 0; k < s->switches->count; k++)
+        if (sides_op_of(s, k) == OP_FIND) argument[k] = s->later[k];
+}
+
 /* Sets the side of switch k by its argument u, whose rounding is at most `bound`. */
 static motus_status place(sides *s, size_t k, double u, double bound, double way, double t, double *x, double *v,
                           motus_error *err)
@@ -260,13 +270,15 @@ static motus_status turn(void *ctx, size_t number, size_t instance, double way, 
         bool jumped = false;
         sides_evaluate(s, s->argument, t, x, v, NULL, s->now);
         sides_evaluate(s, s->rounding, t, x, v, NULL, s->bound);
+        memcpy(s->found, s->now, count * sizeof *s->now);
+        find_rows(s, t, x, v, s->found);
         for (size_t k = 0; k < count && status == MOTUS_OK; k++) {
             const double bound = 0x1p-53 * s->bound[k];
             if (sides_is_held(s, side, k) || is_pinned(s, side, k) || switches_directs(sides_op_of(s, k)))
                 continue; /* its argument has been moved to 0 */
             if (!(fabs(s->now[k] - s->kept[k]) > bound + fabs(s->kept[k]) * 0x1p-40)) continue;
             jumped = true;
-            status = place(s, k, s->now[k], bound, way, t, x, v, err);
+            status = place(s, k, s->found[k], bound, way, t, x, v, err);
         }
         if (!jumped) break;
         memcpy(s->kept, s->now, count * sizeof *s->now);
@@ -347,6 +359,7 @@ static motus_status settle(void *ctx, double way, double t, double *x, double *v
         for (size_t k = 0; k < count && status == MOTUS_OK; k++) {
             sides_evaluate(s, s->argument, t, x, v, NULL, s->now);
             sides_evaluate(s, s->rounding, t, x, v, NULL, s->bound);
+            find_rows(s, t, x, v, s->now);
             status = place(s, k, s->now[k], 0x1p-53 * s->bound[k], way, t, x, v, err);
         }
         settled = pass > 0 && memcmp(s->kept, side, count * sizeof *side) == 0;
@@ -388,7 +401,7 @@ static bool make(sides *s, model *m)
 {
     const switches *w = m->located;
     const size_t nx = s->problem->nx, nv = s->problem->nv, own = s->own.count;
-    double *room = arena_room(m->arena, (12 * w->count + nx + 4 * nv + 1) * sizeof *room);
+    double *room = arena_room(m->arena, (13 * w->count + nx + 4 * nv + 1) * sizeof *room);
     s->rule = arena_room(m->arena, (own + w->kinds) * sizeof *s->rule);
     s->beside = arena_room(m->arena, w->count + 1);
     s->of = arena_room(m->arena, 2 * (w->count + 1) * sizeof *s->of);
@@ -396,7 +409,8 @@ static bool make(sides *s, model *m)
     s->covered = s->of + w->count;
     s->u = room, s->du = s->u + w->count, s->later = s->du + w->count;
     s->before = s->later + w->count, s->now = s->before + w->count, s->bound = s->now + w->count;
-    s->p = s->bound + w->count, s->dp = s->p + w->count;
+    s->found = s->bound + w->count;
+    s->p = s->found + w->count, s->dp = s->p + w->count;
     s->r = s->dp + w->count, s->dr = s->r + w->count, s->kept = s->dr + w->count;
     s->a = s->kept + w->count, s->b = s->a + nv, s->v = s->b + nv, s->push = s->v + nv;
     s->x = s->push + nv, s->was = s->x + nx;
@@ -433,6 +447,9 @@ static bool make(sides *s, model *m)
     s->supplied.gather = gather;
     s->argument = tape_of(m->arena, m->graph, w->held, w->kinds);
     s->rate = tape_of(m->arena, m->graph, w->rate, w->kinds);
+    bool finds = false;
+    for (size_t k = 0; k < w->kinds; k++) finds |= sides_op_of(s, w->first[k]) == OP_FIND;
+    if (finds && !(s->position = tape_of(m->arena, m->graph, w->argument, w->kinds))) return false;
     s->rounding = rounding_tape(m, w->held, w->kinds);
     s->force_rounding = rounding_tape(m, w->accel, m->accel_count);
     if (w->hold_kinds) {
@@ -482,9 +499,9 @@ const rules *sides_rules(const sides *s) { return &s->supplied; }
 bool sides_rebind(sides *s)
 {
     const binding b = {s->model->arrays, s->model->ints, s->model->pool};
-    tape *const tapes[] = {s->argument,      s->rate,        s->rounding,  s->force_rounding,
-                           s->least,         s->least_rates, s->hold,      s->hold_rate,
-                           s->hold_rounding, s->grip,        s->grip_rate, s->grip_rounding};
+    tape *const tapes[] = {s->argument, s->position,    s->rate,         s->rounding,  s->force_rounding,
+                           s->least,    s->least_rates, s->hold,         s->hold_rate, s->hold_rounding,
+                           s->grip,     s->grip_rate,   s->grip_rounding};
     for (size_t k = 0; k < sizeof tapes / sizeof *tapes; k++)
         if (tapes[k] && !tape_bind(tapes[k], &b)) return false;
     /* the periods of clocks depend on parameters */

@@ -16,11 +16,13 @@ struct sides {
     rules supplied, own;
     rule *rule;
     tape *argument, *rate, *rounding, *force_rounding, *least, *least_rates;
+    tape *position;                         /* the arguments without sides; NULL: no switch is a search in a table */
     tape *hold, *hold_rate, *hold_rounding; /* NULL: no switch can be held */
     tape *grip, *grip_rate, *grip_rounding; /* NULL: no switch can be held */
     /* an entry for each switch: */
     double *u, *du, *later;              /* arguments, their rates, and the arguments a little later */
     double *kept, *before, *now, *bound; /* arguments and bounds while sides are chosen; kept: where all are placed */
+    double *found;                       /* the arguments by which sides are chosen */
     double *p, *dp, *r, *dr; /* the value that holds it, how much that drives it (its grip), and the rates of both */
     double *a, *b, *x, *v;   /* room for two accelerations and a state */
     double *push;            /* room for a change of the velocities */

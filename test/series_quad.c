@@ -100,6 +100,8 @@ static quad quad_erf(quad x)
     }
     return 1.1283791670955126 * sum;
 }
+static quad quad_find(quad x, quad table) { return (quad)operation_value(OP_FIND, (double)x, (double)table, 0); }
+static quad quad_entry(quad k, quad table) { return (quad)operation_value(OP_ENTRY, (double)k, (double)table, 0); }
 static quad quad_floor(quad x) { return (quad)floor((double)x); }
 static quad quad_sign(quad x) { return (x > 0) - (x < 0); }
 static quad quad_abs(quad x) { return magnitude(x); }

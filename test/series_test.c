@@ -205,7 +205,7 @@ static void every_recurrence_solves_its_equation(void **unused)
             }
         }
     }
-    assert_int_equal(seen, OPERATIONS - 7 - 11); /* all but the leaves and what is constant between kinks */
+    assert_int_equal(seen, OPERATIONS - 8 - 13); /* all but the leaves and what is constant between kinks */
 }
 
 /* Cauchy's integral -------------------------------------------------------------------------------------------------*/

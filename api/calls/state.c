@@ -48,13 +48,15 @@ static uint64_t mix_subscript(uint64_t h, const subscript *s)
 
 static uint64_t mix_range(uint64_t h, const range *r) { return mix_subscript(mix_subscript(h, &r->first), &r->last); }
 
+static uint64_t mix_array(uint64_t h, const array *a) { return mix_number(mix_number(h, a->space), (int64_t)a->base); }
+
 /* Hashes where a number lies: a reference, and its array. */
 static uint64_t mix_reference(uint64_t h, const model *m, const reference *r)
 {
     static const extent none = {{0}, {0}, {0}}; /* leaves of derivatives have no place */
     const array *a = &m->arrays[r->array];
     const extent *over = a->over ? a->over : &none;
-    h = mix_number(mix_number(h, a->space), (int64_t)a->base);
+    h = mix_array(h, a);
     for (int d = 0; d < r->dims; d++) {
         h = mix_number(mix_number(mix_number(h, over->first[d]), over->last[d]), over->stride[d]);
         h = mix_subscript(h, &r->at[d]);
@@ -86,6 +88,7 @@ static uint64_t mix_nodes(uint64_t h, const model *m, node from, node last)
         const double value = number ? g->value : 0;
         h = mix(mix(h, parts, sizeof parts), &value, sizeof value);
         if (g->op == OP_LOAD) h = mix_reference(h, m, &m->graph->references[g->a]);
+        if (g->op == OP_TABLE) h = mix_array(h, &m->arrays[g->a]);
         if (g->op == OP_SUM) h = mix_range(h, &m->graph->ranges[g->c]);
     }
     return h;

@@ -42,6 +42,7 @@ static void choose_sides(const held *h, double *sides, uint64_t *random)
         const operation op = held_operation(h, k);
         const double r = vector_random(random);
         sides[k] = op == OP_FLOOR || op == OP_MOD                   ? floor(4 * r)
+                   : op == OP_FIND                                  ? 1
                    : op == OP_ABS || op == OP_SIGN || op == OP_CBRT ? (r < 0 ? -1 : 1)
                                                                     : r < 0;
     }

@@ -390,7 +390,7 @@ bool evidence_undefined_here(evidence *e, size_t *which)
     return false;
 }
 
-bool evidence_undefined(evidence *e, size_t *which)
+bool evidence_undefined(evidence *e, size_t *which, double *at)
 {
     for (int i = -SIZES; i < SIZES; i++) {
         const double dt = e->way * fabs(e->h) * ldexp(1, i);
@@ -400,7 +400,7 @@ bool evidence_undefined(evidence *e, size_t *which)
             break;
         if (!force(e, e->t + dt, e->other_x, e->other_v, e->b)) continue;
         for (size_t k = 0; k < e->problem->nv; k++)
-            if (!isfinite(e->b[k])) return *which = k, true;
+            if (!isfinite(e->b[k])) return *which = k, *at = e->t + dt, true;
     }
     return false;
 }

@@ -9,4 +9,5 @@
 #include "step/functions/inverse.h"
 #include "step/functions/root.h"
 #include "step/functions/error.h"
+#include "step/functions/table.h"
 #include "step/functions/end.h"

@@ -3,6 +3,8 @@
 
 #include <math.h>
 
+enum { ENTRIES_MOST = 4096 }; /* entries of a table that are looked at for one bound */
+
 static double less(double a, double b) { return a < b ? a : b; }
 static double more(double a, double b) { return a > b ? a : b; }
 
@@ -84,6 +86,19 @@ static interval power(interval a, interval b)
     return corners(OP_POW, even ? interval_magnitude(a) : a, b);
 }
 
+/* Bounds the entries of a table whose numbers are in `at`. */
+static interval entries(interval at, double table)
+{
+    interval r = {INFINITY, -INFINITY};
+    if (!(at.low >= 0 && at.high - at.low < ENTRIES_MOST)) return anything;
+    for (double k = ceil(at.low); k <= at.high; k++) {
+        const double y = operation_value(OP_ENTRY, k, table, 0);
+        if (isnan(y)) return anything;
+        r = interval_hull(r, (interval){y, y});
+    }
+    return r.low <= r.high ? r : anything;
+}
+
 interval interval_value(operation op, interval a, interval b, interval c, bool same)
 {
     switch (op) {
@@ -112,6 +127,11 @@ interval interval_value(operation op, interval a, interval b, interval c, bool s
     case OP_ATAN2: return b.low > 0 ? corners(op, a, b) : (interval){-half_turn, half_turn};
     case OP_MIN:
     case OP_MAX: return corners(op, a, b);
+    case OP_FIND: {
+        const double low = operation_value(op, a.low, b.low, 0), high = operation_value(op, a.high, b.low, 0);
+        return isnan(low) || isnan(high) ? anything : (interval){low, high};
+    }
+    case OP_ENTRY: return entries(a, b.low);
     case OP_MOD: {
         const interval q = interval_value(OP_DIV, a, b, c, false);
         return floor(q.low) == floor(q.high) ? interval_value(OP_SUB, a, product(b, rising(OP_FLOOR, q)), c, false)

@@ -19,6 +19,8 @@ const operation_row *operation_at(operation op) { return &rows[op < OPERATIONS ?
 
 bool operation_is(operation op, operation_nature of) { return (operation_at(op)->nature & of) == of; }
 
+double operation_table(const double *numbers) { return motus_table_of(numbers); }
+
 double operation_value(operation op, double a, double b, double c)
 {
     switch (op) {

@@ -28,16 +28,17 @@ typedef enum degree_rule {
 
 /* What a row says of its operation. A bend is a jump of the slope. */
 typedef enum operation_nature {
-    IS_WORD = 1 << 0,                 /* its spelling is a word of the language, before a bracket */
-    OF_MANY = 1 << 1,                 /* it takes two arguments or more */
-    BENDS = 1 << 2,                   /* its value or its slope jumps */
-    JUMPS = 1 << 3,                   /* its value jumps */
-    DECIDES = 1 << 4 | BENDS | JUMPS, /* it is 0 or 1 */
-    HAS_POLE = 1 << 5,                /* it has infinite values */
-    STEEP_AT_0 = 1 << 6,              /* its slope is infinite where its operand is 0 */
-    STEEP_AT_ENDS = 1 << 7,           /* its slope is infinite at the ends of its domain */
-    HAS_DOMAIN = 1 << 8,              /* it has no value for whole ranges of its operand */
-    WAVES = 1 << 9,                   /* it rises and falls while its operand moves by a few units */
+    IS_WORD = 1 << 0,                           /* its spelling is a word of the language, before a bracket */
+    OF_MANY = 1 << 1,                           /* it takes two arguments or more */
+    BENDS = 1 << 2,                             /* its value or its slope jumps */
+    JUMPS = 1 << 3,                             /* its value jumps */
+    IS_FLAT = 1 << 15,                          /* its value is constant between its kinks */
+    DECIDES = 1 << 4 | BENDS | JUMPS | IS_FLAT, /* it is 0 or 1 */
+    HAS_POLE = 1 << 5,                          /* it has infinite values */
+    STEEP_AT_0 = 1 << 6,                        /* its slope is infinite where its operand is 0 */
+    STEEP_AT_ENDS = 1 << 7,                     /* its slope is infinite at the ends of its domain */
+    HAS_DOMAIN = 1 << 8,                        /* it has no value for whole ranges of its operand */
+    WAVES = 1 << 9,                             /* it rises and falls while its operand moves by a few units */
     HIDES = 1 << 10,   /* it may change within a small part of its operand's way, which a step may pass over */
     RISES = 1 << 11,   /* it never falls as its only operand rises */
     SINKS = 1 << 12,   /* it never rises as its only operand rises */
@@ -56,5 +57,7 @@ const operation_row *operation_at(operation);
 bool operation_is(operation, operation_nature);
 /* Returns the value of one operation: the bits that every machine computes. */
 double operation_value(operation, double a, double b, double c);
+/* Returns the value of a TABLE whose numbers begin here. */
+double operation_table(const double *numbers);
 
 #endif

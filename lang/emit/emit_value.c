@@ -86,6 +86,15 @@ static void write_load(writer *w, uint32_t k, const reference *r, bool wide)
     }
 }
 
+static void write_table(writer *w, uint32_t k, const graph_node *n)
+{
+    const reference first = {
+        .array = (uint16_t)n->a, .dims = 1, .at = {{.level = -1, .slot = -1, .modulus = -1, .literal = 0}}};
+    char place[PLACE_MAX];
+    emit_element(w, &first, first.dims, place);
+    emit_line(w, "const double r%u = motus_table_of(&pool[%s]);", k, place);
+}
+
 void emit_item(writer *w, uint32_t k)
 {
     const plan_item *item = &w->plan.items.at[k];
@@ -107,6 +116,7 @@ void emit_item(writer *w, uint32_t k)
             emit_line(w, emit_wide(w, item->n) ? "const reals r%u = AT(own, %u);" : "const double r%u = pool[%u];", k,
                       n->a);
             break;
+        case OP_TABLE: write_table(w, k, n); break;
         case OP_INDEX:
             emit_line(w,
                       n->level == w->along ? "const reals r%u = index_count(j%d);" : "const double r%u = (double)j%d;",

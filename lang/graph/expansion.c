@@ -192,9 +192,7 @@ static int last_of(const graph *g, const graph_node *n, const int *last)
     case OP_FMS:
     case OP_FNMA: return larger(both(a, b), c);
     case OP_DIV: return b ? EXPANSION_ALL : a;
-    case OP_FLOOR:
-    case OP_SIGN: return 0;
-    default: return operation_is(n->op, DECIDES) || !(a || b || c) ? 0 : EXPANSION_ALL;
+    default: return operation_is(n->op, IS_FLAT) || !(a || b || c) ? 0 : EXPANSION_ALL;
     }
 }
 

@@ -251,6 +251,11 @@ node graph_load(graph *g, const reference *of)
     return share(g, (graph_node){.op = OP_LOAD, .deps = (uint16_t)deps}, ref, NULL);
 }
 
+node graph_table(graph *g, uint16_t array)
+{
+    return share(g, (graph_node){.op = OP_TABLE, .deps = DEP_PARAM, .a = array}, NULL, NULL);
+}
+
 bool graph_copy_leaf(const graph *from, const graph_node *n, graph *to, node *out)
 {
     switch (n->op) {
@@ -259,6 +264,7 @@ bool graph_copy_leaf(const graph *from, const graph_node *n, graph *to, node *ou
     case OP_PARAM: return *out = graph_param(to, n->a), true;
     case OP_INDEX: return *out = graph_index(to, n->level), true;
     case OP_LOAD: return *out = graph_load(to, &from->references[n->a]), true;
+    case OP_TABLE: return *out = graph_table(to, (uint16_t)n->a), true;
     default: return false;
     }
 }

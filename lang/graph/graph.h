@@ -72,7 +72,7 @@ typedef struct graph_node {
     uint8_t level; /* INDEX, TOTAL: their level; SUM: the level it opens */
     uint16_t deps;
     /* The operands. LOAD: a is the number of the reference. PARAM: a is the pool slot. SUM: a is the body, b the
-     * condition (0: none), c the number of the range. */
+     * condition (0: none), c the number of the range. TABLE: a is the number of the array. */
     node a;
     union {
         struct {
@@ -91,6 +91,13 @@ typedef struct graph_typed {
     twofold is;    /* its exact value, by its decimals */
 } graph_typed;
 
+/* A node that a call in the text has made, which is written as that call: BEFORE argument AFTER. */
+typedef struct graph_call {
+    node n, argument;
+    int component; /* 0: it is no component of a vector */
+    const char *before, *after;
+} graph_call;
+
 typedef struct graph {
     arena *arena;
     graph_node *nodes;
@@ -104,9 +111,11 @@ typedef struct graph {
     node *table;
     uint32_t table_size; /* a power of two */
     uint32_t *place;     /* scratch of graph_order, by node */
-    bool simplify;       /* x+0, 1*x, 0*x, x-x are simplified: while derivatives are built */
-    bool tidy;           /* like terms and powers are joined: while derivatives that a model writes are built */
-    bool too_large;      /* it would exceed GRAPH_NODES_MAX; constructors return node 0 */
+    graph_call *calls;
+    uint32_t call_count, call_room;
+    bool simplify;  /* x+0, 1*x, 0*x, x-x are simplified: while derivatives are built */
+    bool tidy;      /* like terms and powers are joined: while derivatives that a model writes are built */
+    bool too_large; /* it would exceed GRAPH_NODES_MAX; constructors return node 0 */
 } graph;
 enum { GRAPH_NODES_MAX = 1 << 21 };
 
@@ -136,6 +145,7 @@ node graph_time(graph *);
 node graph_param(graph *, uint32_t pool_slot);
 node graph_index(graph *, int level); /* a loop variable as a number */
 node graph_load(graph *, const reference *);
+node graph_table(graph *, uint16_t array);                 /* the numbers of an array of the pool, as a table */
 node graph_running_total(graph *, int level);              /* TOTAL, in the normal form alone */
 node graph_op(graph *, operation, node a, node b, node c); /* unused operands are 0 */
 /* Returns base^exponent, |exponent| <= 64, by a fixed chain: an even power is the square of its half, an odd one
@@ -190,7 +200,7 @@ node graph_domain(graph *, node);
  * a root, a logarithm, a power between 0 and 1; u for the operand |u|. Returns how many, at most `most`. */
 size_t graph_steep(graph *, node, size_t most, node *of);
 /* Returns the derivative, by the rules of calculus from the derivatives that `seed` gives of the leaves (TIME, LOAD,
- * PARAM). */
+ * PARAM, TABLE). */
 typedef node (*graph_seed)(graph *, node leaf, void *ctx);
 node graph_derivative(graph *, node, graph_seed, void *ctx);
 /* The seed of the derivative along a direction: X → DX, V → DV; modes have none. The array of an image is that of its
@@ -224,6 +234,8 @@ void graph_loads(graph *, node, space,
  * MAX_LEVELS: a loop variable; MAX_LEVELS: the int slot a). It may leave an INDEX empty: i, j, k … and n0, n1 … then
  * stand in. Returns the length that it wanted, like snprintf, at most GRAPH_TEXT_MAX: a longer text ends there in
  * "...". */
+/* Notes that a call in the text has made a node; the texts must outlive the graph. */
+void graph_name(graph *, node, node argument, const char *before, const char *after, int component);
 enum { GRAPH_TEXT_MAX = 1 << 20 };
 typedef void (*graph_namer)(void *ctx, const graph_node *, char *out, size_t size);
 size_t graph_print(const graph *, node, graph_namer, void *ctx, char *out, size_t size);

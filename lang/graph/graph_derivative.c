@@ -58,7 +58,7 @@ node graph_derivative(graph *g, node root, graph_seed seed, void *ctx)
     /* Leaves first: a seed may walk the graph itself, which overwrites `place`; the rules need it. */
     for (uint32_t k = 0; d && k < w.count; k++) {
         uint8_t op = g->nodes[w.nodes[k]].op;
-        if (op == OP_TIME || op == OP_LOAD || op == OP_PARAM) d[k] = seed(g, w.nodes[k], ctx);
+        if (op == OP_TIME || op == OP_LOAD || op == OP_PARAM || op == OP_TABLE) d[k] = seed(g, w.nodes[k], ctx);
     }
     bool before = g->simplify;
     g->simplify = true;

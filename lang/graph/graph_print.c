@@ -122,9 +122,28 @@ static bool minus_factor(const graph *g, node n)
     return minus_number(g, n) || (g->nodes[n].op == OP_NEG && g->nodes[g->nodes[n].a].op != OP_DIV);
 }
 
+void graph_name(graph *g, node n, node argument, const char *before, const char *after, int component)
+{
+    for (uint32_t k = 0; k < g->call_count; k++)
+        if (g->calls[k].n == n) return;
+    if (!arena_more(g->arena, &g->calls, g->call_count, &g->call_room, sizeof *g->calls)) return;
+    g->calls[g->call_count++] = (graph_call){n, argument, component, before, after};
+}
+
+/* Returns the call that has made a node; NULL: none. */
+static const graph_call *call_of(const graph *g, node n)
+{
+    const graph_call *found = NULL;
+    if (g->nodes[n].op == OP_ADD)
+        for (uint32_t k = 0; k < g->call_count && !found; k++)
+            if (g->calls[k].n == n) found = &g->calls[k];
+    return found;
+}
+
 static tightness tightness_of(const graph *g, node n)
 {
     const graph_node *m = &g->nodes[n];
+    if (call_of(g, n)) return T_FACTOR;
     if (negative(g, n)) return T_MINUS;
     switch (m->op) {
     case OP_OR: return T_OR;
@@ -355,6 +374,19 @@ static void write_node(printer *p, node n)
     const graph *g = p->g;
     const graph_node *m = &g->nodes[n];
     const char *sign = operation_at(m->op)->spelling;
+    const graph_call *called = call_of(g, n);
+    if (called) {
+        say(p, called->component ? "]" : ")", TAIL_CLOSE);
+        if (called->component) {
+            push(p, (task){.kind = TASK_NUMBER, .number = called->component});
+            say(p, ")[", TAIL_NONE);
+        }
+        say(p, called->after, TAIL_NONE);
+        say(p, ", ", TAIL_NONE);
+        then(p, called->argument, T_OR);
+        say(p, called->before, TAIL_NONE);
+        return;
+    }
     if (negative(g, n)) {
         text(p, "-");
         without_minus(p, n);
@@ -366,6 +398,7 @@ static void write_node(printer *p, node n)
     case OP_PARAM:
     case OP_INDEX:
     case OP_LOAD:
+    case OP_TABLE:
     case OP_TOTAL: leaf(p, m); return;
     case OP_SUM: sum_over(p, m); return;
     case OP_ADD: sum(p, m->a, false, m->b); return;
@@ -394,6 +427,19 @@ static void write_node(printer *p, node n)
     case OP_NE: infix(p, m->a, T_SUM, comparisons[m->op - OP_LT], m->b, T_SUM); return;
     case OP_AND: infix(p, m->a, T_AND, " and ", m->b, T_NOT); return;
     case OP_OR: infix(p, m->a, T_OR, " or ", m->b, T_AND); return;
+    case OP_FIND:
+        say(p, ", ...)", TAIL_CLOSE);
+        then(p, m->b, T_OR);
+        say(p, ", ", TAIL_NONE);
+        then(p, m->a, T_OR);
+        say(p, "interp(", TAIL_NONE);
+        return;
+    case OP_ENTRY:
+        say(p, "]", TAIL_CLOSE);
+        then(p, m->a, T_OR);
+        say(p, "[", TAIL_NONE);
+        then(p, m->b, T_FACTOR);
+        return;
     case OP_NOT:
         then(p, m->a, T_NOT);
         say(p, "not ", TAIL_NONE);

@@ -67,6 +67,9 @@ static node of_operation(graph *g, node self, const node r[3])
         const node least = subtract(g, of[0], r[0]);
         return of_gentle(g, self, bounded(g, least, divide(g, r[0], least)));
     }
+    case OP_ENTRY: /* one entry, while only an event or a switch moves to another */
+        return graph_deps(g, n.a) & (DEP_TIME | (DEP_STATE & ~DEP_MODE) | DEP_LEVELS) ? graph_const(g, INFINITY)
+                                                                                      : rounding(g, self, 49);
     case OP_SUM: { /* the roundings of N terms add up */
         const node term = add(g, r[0], rounding(g, n.a, 30));
         return n.b ? graph_const(g, INFINITY) : graph_sum(g, n.level, &g->ranges[n.c], 0, term);
@@ -87,6 +90,8 @@ node graph_radius(graph *g, node root, graph_seed leaf, void *ctx)
         for (int j = 0; j < arity; j++) of[j] = r[g->place[operand[j]]];
         if (arity)
             r[k] = of_operation(g, w.nodes[k], of);
+        else if (n.op == OP_TABLE)
+            r[k] = 0;
         else
             r[k] = add(g, rounding(g, w.nodes[k], 49),
                        n.op == OP_CONST || n.op == OP_INDEX ? 0 : leaf(g, w.nodes[k], ctx));

@@ -26,15 +26,13 @@ static node passed_on(graph *g, const graph_node *n, node self, int operand, nod
     return bounded ? product : graph_op(g, OP_SELECT, graph_op(g, OP_NE, error, 0, 0), product, 0);
 }
 
-static bool jumps(operation op) { return operation_is(op, DECIDES) || op == OP_SIGN || op == OP_FLOOR; }
-
 /* Returns the error of one operation, from those of its operands. */
 static node of_operation(graph *g, node self, const node error[3])
 {
     const graph_node n = g->nodes[self];
     node operand[3];
     const int arity = graph_operands(&n, operand);
-    if (jumps((operation)n.op)) return 0;
+    if (operation_is((operation)n.op, IS_FLAT)) return 0;
     if (n.op == OP_SUM) {
         const node body = error[0] ? graph_sum(g, n.level, &g->ranges[n.c], n.b, error[0]) : 0;
         return graph_op(g, OP_ADD, body, size_of(g, self), 0);

@@ -165,7 +165,7 @@ bool graph_flat(graph *g, node root)
         result = count > 0;
         for (int j = n->op == OP_SELECT ? 1 : 0; j < count; j++)
             result &= !graph_reached(g, &w, operand[j]) || flat[g->place[operand[j]]];
-        result |= n->op == OP_FLOOR || n->op == OP_SIGN || operation_is((operation)n->op, DECIDES);
+        result |= operation_is((operation)n->op, IS_FLAT);
         flat[k] = result;
     }
     give(&g->arena->allocator, flat);

@@ -13,15 +13,16 @@
 
 /* Seeds ------------------------------------------------------------------------------------------------------------ */
 
-static const array *array_of(const graph *g, node load)
+static const array *array_of(const graph *g, node leaf)
 {
-    return &g->arrays[g->references[graph_at(g, load)->a].array];
+    const graph_node *n = graph_at(g, leaf);
+    return &g->arrays[n->op == OP_TABLE ? n->a : g->references[n->a].array];
 }
 
 static bool in_pool(const graph *g, node n)
 {
     const int op = graph_at(g, n)->op;
-    return op == OP_PARAM || (op == OP_LOAD && array_of(g, n)->space == SPACE_POOL);
+    return op == OP_PARAM || op == OP_TABLE || (op == OP_LOAD && array_of(g, n)->space == SPACE_POOL);
 }
 
 static node seed(graph *g, node leaf, void *differential_ctx);

@@ -165,6 +165,7 @@ static value lower_list(lowering *l, const tree *t, model_definition *d, bool st
         HINT(l, "write %s[1] or %s[i]", d->name, d->name);
         return wrong(l);
     }
+    if (d->dims == 1 && lower_moves(l, t->item[0])) return lower_entry(l, t, d);
     reference r = {0};
     int64_t low[MAX_DIMS], high[MAX_DIMS];
     if (!subscripts(l, t, d->dims, &r, low, high)) return wrong(l);

@@ -89,6 +89,12 @@ argument *lower_find_argument(const lowering *, const char *name);
 value lower_argument(lowering *, argument *);
 value lower_function(lowering *, const tree *call, model_function *);
 
+/* lower_table.c: lower interp(…) and spline(…), and an entry of a list whose number moves. lower_moves tells whether an
+ * expression uses a state, t, or what follows from them. */
+value lower_table(lowering *, const tree *call);
+bool lower_moves(const lowering *, const tree *);
+value lower_entry(lowering *, const tree *, const model_definition *list);
+
 /* lower_kept.c */
 value lower_kept(lowering *, const tree *call);
 

@@ -249,6 +249,7 @@ static value lower_call(lowering *l, const tree *t)
     uint32_t n = t->count;
     char shape[40], x[80];
     if (t->operation == CALL_DIFF) return lower_diff(l, t);
+    if (t->operation == CALL_INTERP || t->operation == CALL_SPLINE) return lower_table(l, t);
     for (uint32_t i = 0; i < n && i < 3; i++) {
         v[i] = lower_expression(l, t->item[i]);
         if (failed(l)) return wrong(l);

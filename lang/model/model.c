@@ -1,6 +1,8 @@
 /* The names of a model's numbers, and its nodes as text with these names. */
 #include "lang/model/model.h"
 
+#include "lang/model/table.h"
+
 #include <stdio.h>
 
 /* Writes ".y" or "[5]". */
@@ -125,6 +127,12 @@ void model_reference_name(const model *m, const reference *r, char *out, size_t 
     if (components && n_ < size) name_component(components, component, out + n_, size - n_);
 }
 
+static void name_table(const model *m, uint32_t array, char *out, size_t size)
+{
+    for (uint32_t k = 0; k < m->table_count; k++)
+        if (m->tables[k]->array == array) snprintf(out, size, "%s", m->tables[k]->name);
+}
+
 static void name_leaf(void *model_, const graph_node *n, char *out, size_t size)
 {
     const model *m = model_;
@@ -133,6 +141,8 @@ static void name_leaf(void *model_, const graph_node *n, char *out, size_t size)
         name_parameter(m, n->a, out, size);
     else if (n->op == OP_INDEX && n->level == MAX_LEVELS)
         snprintf(out, size, "%lld", (long long)m->ints[n->a]);
+    else if (n->op == OP_TABLE)
+        name_table(m, n->a, out, size);
     else if (n->op == OP_LOAD)
         model_reference_name(m, &m->graph->references[n->a], out, size);
 }

@@ -178,6 +178,14 @@ typedef struct model_keep {
     span at;        /* its first call, which names it */
 } model_keep;
 
+/* The numbers of a list without a name, which stands in the text, or of the points of a uniform grid. */
+typedef struct model_unnamed {
+    const tree *of;
+    struct model_unnamed *next;
+    uint16_t array;
+    int components;
+} model_unnamed;
+
 /* The shape of a family of numbers; dims 0: it is one number. */
 typedef struct model_shape {
     int dims;
@@ -209,11 +217,14 @@ typedef struct model {
     vary_log log;
     uint8_t *overridden;   /* for vary.h, by place of the pool: 1: motus_system_set has set it; NULL: none */
     struct verify *verify; /* for verify.h: the checks of exact lines and invariants, or NULL */
-    double constant_terms; /* terms of sums in constants so far */
-    double terms;          /* terms of the largest nest of families and sums that moves */
-    uint32_t singles;      /* cells and terms made single, which bounds their cost (evaluate.h) */
-    uint16_t leaf_array;   /* for lower_diff.c: the array of its own leaves; 0: none */
-    int32_t leaf_count;    /* how many leaves it has */
+    struct table **tables; /* for table.h: what has been made of lists */
+    uint32_t table_count, table_room;
+    model_unnamed *unnamed; /* for lower_table.c */
+    double constant_terms;  /* terms of sums in constants so far */
+    double terms;           /* terms of the largest nest of families and sums that moves */
+    uint32_t singles;       /* cells and terms made single, which bounds their cost (evaluate.h) */
+    uint16_t leaf_array;    /* for lower_diff.c: the array of its own leaves; 0: none */
+    int32_t leaf_count;     /* how many leaves it has */
     struct value (*lower)(struct lowering *, const tree *); /* lower_tree of lang/lower/lower.h */
     int depth;                                              /* the present depth of nested expressions */
     int start_depth;  /* the present depth of initial values that use one another */

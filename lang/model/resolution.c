@@ -495,6 +495,7 @@ static bool compute(resolution *r, step *s)
     case OP_PARAM: s->interval = number(r->pool[n->a]); return true;
     case OP_INDEX: s->interval = number((double)r->index[n->level]); return true;
     case OP_LOAD: s->interval = load(r, n); return true;
+    case OP_TABLE: s->interval = number(operation_table(r->pool + r->model->arrays[n->a].base)); return true;
     case OP_SUM: return sum(r, s);
     default: break;
     }

@@ -5,6 +5,7 @@
 #include "lang/graph/graph_place.h"
 #include "lang/graph/graph_walk.h"
 #include "lang/graph/ratio.h"
+#include "lang/model/table.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -151,6 +152,7 @@ bool switches_is(const graph *g, const graph_node *n)
     case OP_MIN:
     case OP_MAX:
     case OP_FLOOR:
+    case OP_FIND:
     case OP_MOD:
     case OP_CBRT:
     case OP_LT:
@@ -178,6 +180,7 @@ static bool compares(operation op)
 node switches_argument(graph *g, operation op, node a, node b)
 {
     if (compares(op)) return graph_op(g, OP_SUB, a, b, 0);
+    if (op == OP_FIND) return table_position(g, a, graph_op(g, OP_FIND, a, b, 0), b);
     return op == OP_MOD ? graph_op(g, OP_DIV, a, b, 0) : a;
 }
 
@@ -206,6 +209,13 @@ static output output_to(const reference *value, unsigned levels, const nest *aro
     while (levels >> o.loops) o.loops++;
     for (int k = 0; k < o.loops; k++) o.loop[k] = around->at[k];
     return o;
+}
+
+static void hold_argument(builder *b, uint32_t k, node held)
+{
+    switches *s = b->s;
+    s->held[k].value = held;
+    s->rate[k].value = graph_derivative(b->m->graph, held, model_seed_motion, b->m);
 }
 
 /* Adds a kind of switch. UINT32_MAX: it is refused, or no memory. */
@@ -240,8 +250,7 @@ static uint32_t add_kind(builder *b, node n, unsigned levels, node argument, nod
     s->first[k] = b->m->arrays[value.array].base;
     s->argument[k] = s->held[k] = s->rate[k] = o;
     s->argument[k].value = argument;
-    s->held[k].value = held;
-    s->rate[k].value = graph_derivative(g, held, model_seed_motion, b->m);
+    hold_argument(b, k, held);
     return k;
 }
 
@@ -256,6 +265,7 @@ static uint32_t kind_of(builder *b, node n, node a, node c, const nest *around)
     const uint32_t k = add_kind(b, n, levels, switches_argument(g, original.op, original.a, original.b),
                                 switches_argument(g, original.op, a, c), around);
     if (k == UINT32_MAX) return k;
+    if (original.op == OP_FIND) hold_argument(b, k, table_position(g, a, b->s->side[k], c));
     b->kinds[k].before = b->last[n];
     b->last[n] = k + 1;
     return k;
@@ -553,6 +563,13 @@ void switches_surface(const model *m, node original, char *out, size_t size)
 {
     const graph_node n = *graph_at(m->graph, original);
     const operation op = (operation)n.op;
+    if (op == OP_FIND) {
+        model_print(m, n.a, out, size);
+        const size_t length = strlen(out);
+        snprintf(out + length, size - length, " = a point of ");
+        model_print(m, n.b, out + strlen(out), size - strlen(out));
+        return;
+    }
     const bool turned = compares(op) && m->graph->nodes[n.a].op == OP_CONST;
     model_print(m,
                 op == OP_DIV || turned ? n.b
@@ -568,7 +585,7 @@ void switches_surface(const model *m, node original, char *out, size_t size)
 
 bool switches_directs(operation op) { return op == OP_DIV; }
 
-bool switches_counts(operation op) { return op == OP_FLOOR || op == OP_MOD; }
+bool switches_counts(operation op) { return op == OP_FLOOR || op == OP_MOD || op == OP_FIND; }
 
 /* Returns 1 where the argument is positive on a side, -1 where it is negative. */
 static double direction(operation op, double side)

@@ -1,9 +1,9 @@
 /* The switches of a model: where the force has one smooth formula on one side and another beyond it.
  *
- * A switch is an operation abs, sign, min, max, floor, mod, cbrt or a comparison, whose argument depends on time or
- * state. Its side is a number p that replaces it: |u| becomes p u, with p = 1 or -1. While the sides are held, the
- * force is smooth also beyond the place where a side would change; so a step can lead across that place, and a root of
- * the argument tells where it is. In a family there is a switch for each cell.
+ * A switch is an operation abs, sign, min, max, floor, mod, cbrt, the search in a table, or a comparison, whose
+ * argument depends on time or state. Its side is a number p that replaces it: |u| becomes p u, with p = 1 or -1. While
+ * the sides are held, the force is smooth also beyond the place where a side would change; so a step can lead across
+ * that place, and a root of the argument tells where it is. In a family there is a switch for each cell.
  *
  * A direction u/|u| of a vector of velocities can be a switch in each component. The side of a component is that of a
  * unit vector from which u is less than a right angle away, or SWITCHES_HELD, while u stays 0.

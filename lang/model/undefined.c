@@ -9,8 +9,10 @@
 #include "base/memory.h"
 #include "lang/graph/graph_place.h"
 #include "lang/graph/graph_walk.h"
+#include "lang/model/table.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 enum {
@@ -51,6 +53,7 @@ static twofold leaf(const place *p, const graph_node *n, const way *w)
     if (n->op == OP_CONST) return twofold_of(n->value);
     if (n->op == OP_PARAM) return twofold_of(m->pool[n->a]);
     if (n->op == OP_TIME) return beside(p->t, w, 0);
+    if (n->op == OP_TABLE) return twofold_of(operation_table(m->pool + m->arrays[n->a].base));
     if (n->op != OP_LOAD) return twofold_of(NAN);
     const reference *ref = &m->graph->references[n->a];
     const size_t at = graph_element(m->arrays, ref, NULL, m->ints);
@@ -185,6 +188,43 @@ static bool find_limit(const place *p, size_t at, size_t moving, twofold *room, 
     return false;
 }
 
+static const table *table_at(const model *m, node of)
+{
+    const table *found = NULL;
+    for (uint32_t k = 0; k < m->table_count && !found; k++)
+        if (m->tables[k]->array == graph_at(m->graph, of)->a) found = m->tables[k];
+    return found;
+}
+
+/* Writes which entry a list or a table does not have. */
+static void outside(model *m, const graph_node *entry, const twofold *value, undefined_term *out)
+{
+    const graph *g = m->graph;
+    const table *const t = table_at(m, entry->b);
+    char u[UNDEFINED_TEXT / 2], end[DECIMAL_MAX];
+    if (!t) return;
+    const array *const points = &m->arrays[t->points];
+    const int64_t first = points->over->first[0], last = points->over->last[0];
+    if (t->kind == TABLE_LIST) {
+        snprintf(out->outside, sizeof out->outside, "%s has the entries %lld to %lld, and %g is asked for", t->name,
+                 (long long)first, (long long)last, value[g->place[entry->a]].high + (double)(first - 1));
+        return;
+    }
+    node row = entry->a;
+    while (graph_at(g, row)->op == OP_ADD || graph_at(g, row)->op == OP_MUL) {
+        const graph_node *n = graph_at(g, row);
+        row = graph_at(g, n->a)->op == OP_CONST ? n->b : n->a;
+    }
+    if (graph_at(g, row)->op != OP_FIND) return;
+    const bool before = value[g->place[row]].high == 0;
+    model_print(m, graph_at(g, row)->a, u, sizeof u);
+    const double point = m->pool[points->base + (before ? 0 : (size_t)(last - first))];
+    if (graph_at(g, graph_at(g, row)->a)->op == OP_TIME) out->time = point;
+    snprintf(out->outside, sizeof out->outside, "%s goes %s the %s point of the table %s, %s", u,
+             before ? "before" : "beyond", before ? "first" : "last", t->name, decimal(point, end));
+    out->holds = true;
+}
+
 /* Describes an undefined term. A limit is given of a quotient only if it depends on no number that its divisor does not
  * depend on: otherwise there may be one for each value of that number. */
 static void describe(model *m, const place *p, size_t at, twofold *value, bool *taken, undefined_term *out)
@@ -198,6 +238,7 @@ static void describe(model *m, const place *p, size_t at, twofold *value, bool *
     if (out->both && moving == mark(p, g->place[n.b], NULL, taken))
         out->has_limit = find_limit(p, at, moving, value, &out->limit);
     model_print(m, p->walk->nodes[at], out->term, sizeof out->term);
+    if (n.op == OP_ENTRY) outside(m, &n, value, out);
     if (divides) model_print(m, n.b, out->divisor, sizeof out->divisor);
 }
 
@@ -223,7 +264,7 @@ bool undefined_find(model *m, size_t which, double t, const double *x, const dou
 {
     const output *o = formula_of(m, which);
     graph_walk w;
-    *out = (undefined_term){.has_limit = false};
+    *out = (undefined_term){.time = NAN};
     if (!o || !graph_order(m->graph, &o->value, 1, 0, false, &w)) return false;
     const place p = {m, &w, t, x, v};
     twofold *const value = take(&m->arena->allocator, w.count, sizeof *value);

@@ -11,6 +11,10 @@ typedef struct undefined_term {
     bool infinite, both;                                /* both: the term is 0/0 */
     bool has_limit; /* on all ways to the state the term goes to `limit`, in all digits of a double */
     double limit;
+    /* a sentence, if the term is an entry that a list or a table does not have; holds: its end values could hold */
+    char outside[UNDEFINED_TEXT];
+    bool holds;
+    double time; /* the end of a table of the time; else NaN */
 } undefined_term;
 
 /* Finds the term in the acceleration of number `which` of v, at a state. False: no formula of a single cell has one, or

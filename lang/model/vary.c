@@ -2,6 +2,7 @@
 #include "lang/model/vary.h"
 
 #include "lang/graph/graph_place.h"
+#include "lang/model/table.h"
 #include "lang/tape/tape.h"
 
 #include <string.h>
@@ -30,6 +31,8 @@ static void mark_nodes(const vary *v, uint8_t *changed, node from, node to)
             changed[n] = v->affected[m->a];
         else if (m->op == OP_LOAD && g->arrays[g->references[m->a].array].space == SPACE_POOL)
             changed[n] = graph_marked(&g->arrays[g->references[m->a].array], v->affected);
+        else if (m->op == OP_TABLE)
+            changed[n] = graph_marked(&g->arrays[m->a], v->affected);
         else if (m->op == OP_SUM)
             changed[n] = changed[m->a] | (m->b ? changed[m->b] : 0);
         for (int i = 0; i < arity; i++) changed[n] |= changed[i == 0 ? m->a : i == 1 ? m->b : m->c];
@@ -42,10 +45,14 @@ static const vary_entry *entry_of(const model *m, const struct vary_line *line)
     return line->value == VARY_ENTRY ? &m->log.entries[line->slot] : NULL;
 }
 
-static bool line_changes(const model *m, const struct vary_line *line, const uint8_t *changed)
+static bool line_changes(const vary *v, const struct vary_line *line, const uint8_t *changed)
 {
+    const model *m = v->model;
     const vary_entry *e = entry_of(m, line);
     if (!e) return changed[line->value];
+    if (e->table)
+        return graph_marked(&m->arrays[e->table->list], v->affected) ||
+               graph_marked(&m->arrays[e->table->points], v->affected);
     for (int k = 0; k < e->parts; k++)
         if (changed[e->outputs[k].value]) return true;
     return false;
@@ -58,10 +65,17 @@ static size_t place_of(const model *m, const vary_entry *e, int k)
     return o->loops ? m->arrays[o->to.array].base : graph_element(m->arrays, &o->to, NULL, m->ints);
 }
 
+static void mark_table(vary *v, const table *t)
+{
+    const array *a = &v->model->arrays[t->array];
+    memset(v->affected + a->base, 1, (size_t)a->over->last[0] + 1);
+}
+
 static void mark_places(vary *v, const struct vary_line *line)
 {
     const vary_entry *e = entry_of(v->model, line);
     if (!e) v->affected[line->slot] = 1;
+    if (e && e->table) mark_table(v, e->table);
     for (int k = 0; e && k < e->parts; k++)
         memset(v->affected + place_of(v->model, e, k), 1, e->outputs[k].loops ? e->hull : 1);
 }
@@ -70,7 +84,7 @@ static void mark_places(vary *v, const struct vary_line *line)
  * whole. */
 static bool overridden(const model *m, const vary_entry *e)
 {
-    return m->overridden && m->overridden[place_of(m, e, 0)];
+    return m->overridden && !e->table && m->overridden[place_of(m, e, 0)];
 }
 
 static bool line_overridden(const model *m, const struct vary_line *line)
@@ -100,7 +114,7 @@ static node last_node(const model *m, const struct vary_line *line)
 /* Returns whether each array of an entry has a marked place: then the loads of its cells are marked already. */
 static bool array_marked(const vary *v, const vary_entry *e)
 {
-    bool all = true;
+    bool all = !e->table || graph_marked(&v->model->arrays[e->table->array], v->affected);
     for (int k = 0; k < e->parts; k++) all &= graph_marked(&v->model->arrays[e->outputs[k].to.array], v->affected);
     return all;
 }
@@ -119,7 +133,7 @@ static void follow(vary *v, uint8_t *changed)
         const node need = last_node(m, line) + 1;
         if (need > upto) mark_nodes(v, changed, upto, need);
         upto = need > upto ? need : upto;
-        if (line_overridden(m, line) || !line_changes(m, line, changed)) continue;
+        if (line_overridden(m, line) || !line_changes(v, line, changed)) continue;
         const bool again = e && !array_marked(v, e);
         mark_places(v, line);
         if (again) mark_nodes(v, changed, 0, upto);
@@ -219,6 +233,7 @@ motus_status vary_create(model *m, const size_t *places, size_t count, bool own_
     if (status != MOTUS_OK) return status;
     for (uint32_t k = 0; k < v->active_count; k++) {
         vary_active *e = &v->active[k];
+        if (e->entry->table) continue;
         e->program = program_create(m->graph, e->entry->outputs, (size_t)e->entry->parts);
         e->tape = e->program && !a->failed ? tape_create(a, e->program) : NULL;
     }
@@ -245,6 +260,10 @@ bool vary_apply(vary *v, const double *values)
         const vary_entry *e = v->active[k].entry;
         const size_t all = e->map ? e->hull * (size_t)e->parts : 0;
         if (overridden(m, e)) continue;
+        if (e->table) {
+            table_fill(m, e->table);
+            continue;
+        }
         memcpy(v->kept, m->pool + e->base, all * sizeof(double));
         if (!tape_bind(v->active[k].tape, &b)) return false;
         tape_run(v->active[k].tape, 0, base);

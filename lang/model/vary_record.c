@@ -53,6 +53,14 @@ bool vary_record_scalar(model *m, node n, uint32_t slot)
     return add_line(m, n, slot);
 }
 
+bool vary_record_table(model *m, const struct table *t)
+{
+    vary_entry *e = new_entry(m);
+    if (!e) return false;
+    *e = (vary_entry){.table = t};
+    return add_line(m, VARY_ENTRY, m->log.entry_count++);
+}
+
 const vary_entry *vary_record_entry(model *m, const struct vary_line *line)
 {
     if (line->value == VARY_ENTRY) return &m->log.entries[line->slot];

@@ -12,7 +12,8 @@ typedef struct vary_entry {
     int parts;
     size_t base, hull; /* its places: parts × hull of them, from `base` on */
     const uint8_t *map;
-    uint8_t rank; /* cells with map > rank keep their value; map NULL: none does */
+    uint8_t rank;              /* cells with map > rank keep their value; map NULL: none does */
+    const struct table *table; /* it is a table (table.h), and has no outputs; or NULL */
 } vary_entry;
 
 /* Logs an evaluation, if it depends on parameters. target: its subscripts and loops; `array` keeps 1 + the number of
@@ -21,6 +22,7 @@ bool vary_record(model *, const output *target, const node *values, int parts, s
                  const int64_t first[], const int64_t last[], size_t hull, const uint8_t *map, uint8_t rank,
                  uint16_t *array);
 bool vary_record_scalar(model *, node, uint32_t slot);
+bool vary_record_table(model *, const struct table *);
 /* Returns the entry of a line, made in the model's arena if it has none. NULL: no memory. */
 const vary_entry *vary_record_entry(model *, const struct vary_line *);
 /* Logs that a node decides `what` (see evaluate_number). */

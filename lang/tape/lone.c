@@ -92,6 +92,7 @@ double lone_run(lone *l, size_t k, const int64_t *index, const binding *b, doubl
         case OP_CONST: value[i] = n->value; break;
         case OP_TIME: value[i] = t; break;
         case OP_PARAM: value[i] = b->pool[n->a]; break;
+        case OP_TABLE: value[i] = operation_table(b->pool + b->arrays[n->a].base); break;
         case OP_INDEX: value[i] = (double)index[n->level]; break;
         case OP_LOAD: {
             const space s = b->arrays[references[n->a].array].space;

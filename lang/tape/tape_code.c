@@ -185,6 +185,7 @@ static void write_item(writer *w, uint32_t k)
     case OP_CONST: item->reg = constant(w, n->value); break;
     case OP_TIME: item->reg = simple(w, CODE_TIME, SCALAR_REGISTER, 0); break;
     case OP_PARAM: item->reg = simple(w, CODE_PARAM, SCALAR_REGISTER, n->a); break;
+    case OP_TABLE: item->reg = simple(w, CODE_TABLE, SCALAR_REGISTER, n->a); break;
     case OP_INDEX:
         item->reg =
             lanes ? simple(w, CODE_IOTA, BLOCK_REGISTER, n->level) : simple(w, CODE_INDEX, SCALAR_REGISTER, n->level);

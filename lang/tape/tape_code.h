@@ -20,6 +20,7 @@ typedef enum tape_op {
     CODE_CONST = OPERATIONS, /* r = constants[a] */
     CODE_TIME,               /* r = t */
     CODE_PARAM,              /* r = pool[a] */
+    CODE_TABLE,              /* r = array a of the pool, as a table */
     CODE_INDEX,              /* r = the index of level a */
     CODE_FETCH_FIXED,        /* r = memory at site a, outside the pool, at an address that no index moves */
     CODE_FETCH,              /* r = memory at site a */

@@ -216,6 +216,7 @@ static __attribute__((noinline)) const instruction *other(frame *f, const instru
     switch (i->code) {
     case CODE_CONST: R[i->r] = f->code->constants[i->a]; break;
     case CODE_PARAM: R[i->r] = f->binding->pool[i->a]; break;
+    case CODE_TABLE: R[i->r] = operation_table(f->binding->pool + f->binding->arrays[i->a].base); break;
     case CODE_INDEX: R[i->r] = (double)f->index[i->a]; break;
     case CODE_FETCH: R[i->r] = *place_of(f, &f->code->sites[i->a]); break;
     case CODE_PUT: *place_of(f, &f->code->sites[i->b]) = R[i->a]; break;
@@ -275,12 +276,25 @@ static void execute(frame *f, const instruction *i)
 #define OP(id, ...) [OP_##id] = &&l_##id,
 #include "lang/base/operations.def"
 #undef OP
-        [CODE_CONST] = &&l_other,   [CODE_TIME] = &&l_time,         [CODE_PARAM] = &&l_other,
-        [CODE_INDEX] = &&l_other,   [CODE_FETCH_FIXED] = &&l_fetch, [CODE_FETCH] = &&l_fetch_along,
-        [CODE_PUT_FIXED] = &&l_put, [CODE_PUT] = &&l_other,         [CODE_BLOCK] = &&l_block,
-        [CODE_IOTA] = &&l_other,    [CODE_FILL] = &&l_other,        [CODE_VIEW] = &&l_other,
-        [CODE_TARGET] = &&l_other,  [CODE_WRITE] = &&l_other,       [CODE_LOOP] = &&l_other,
-        [CODE_NEXT] = &&l_other,    [CODE_TERMS] = &&l_other,       [CODE_END] = &&l_end};
+        [CODE_CONST] = &&l_other,
+        [CODE_TIME] = &&l_time,
+        [CODE_PARAM] = &&l_other,
+        [CODE_TABLE] = &&l_other,
+        [CODE_INDEX] = &&l_other,
+        [CODE_FETCH_FIXED] = &&l_fetch,
+        [CODE_FETCH] = &&l_fetch_along,
+        [CODE_PUT_FIXED] = &&l_put,
+        [CODE_PUT] = &&l_other,
+        [CODE_BLOCK] = &&l_block,
+        [CODE_IOTA] = &&l_other,
+        [CODE_FILL] = &&l_other,
+        [CODE_VIEW] = &&l_other,
+        [CODE_TARGET] = &&l_other,
+        [CODE_WRITE] = &&l_other,
+        [CODE_LOOP] = &&l_other,
+        [CODE_NEXT] = &&l_other,
+        [CODE_TERMS] = &&l_other,
+        [CODE_END] = &&l_end};
     double *const R = f->scalars;
     goto *label[i->code];
 #define LEAF(...)

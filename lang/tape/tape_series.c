@@ -42,6 +42,7 @@ static series_task leaf(writer *w, uint32_t item, const graph_node *n)
         break;
     case OP_TIME: t.what = SERIES_TIME; break;
     case OP_PARAM: t.what = SERIES_PARAM; break;
+    case OP_TABLE: t.what = SERIES_TABLE; break;
     case OP_INDEX: t.what = SERIES_INDEX, t.a = n->level; break;
     default: t.what = w->expansion.values[item].state ? SERIES_STATE : SERIES_FETCH; break;
     }

@@ -12,6 +12,7 @@ typedef enum series_what {
     SERIES_CONST, /* a: the number of the constant */
     SERIES_TIME,
     SERIES_PARAM,  /* a: the pool slot */
+    SERIES_TABLE,  /* a: the array */
     SERIES_INDEX,  /* a: the level */
     SERIES_FETCH,  /* a: the reference, to the pool */
     SERIES_STATE,  /* a: the reference, to a position or a velocity */

@@ -106,6 +106,7 @@ static double leaf(const running *run, const series_task *task)
     case SERIES_CONST: return s->constants[task->a];
     case SERIES_TIME: return run->pass->n ? 1 : run->pass->t;
     case SERIES_PARAM: return s->binding.pool[task->a];
+    case SERIES_TABLE: return operation_table(s->binding.pool + s->binding.arrays[task->a].base);
     case SERIES_INDEX: return (double)run->index[task->a];
     default: return s->binding.pool[place_of(run, &s->program->graph->references[task->a])];
     }

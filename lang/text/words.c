@@ -10,7 +10,8 @@
 static const struct {
     const char *name;
     int operation;
-} calls[] = {{"dot", CALL_DOT}, {"cross", CALL_CROSS}, {"if", CALL_IF}, {"diff", CALL_DIFF}};
+} calls[] = {{"dot", CALL_DOT},   {"cross", CALL_CROSS},   {"if", CALL_IF},
+             {"diff", CALL_DIFF}, {"interp", CALL_INTERP}, {"spline", CALL_SPLINE}};
 
 enum { STATEMENTS, OTHERS, OF_EVENTS, KEPT, LISTS, MOST = 11 };
 static const char *const lists[LISTS][MOST] = {

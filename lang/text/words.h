@@ -7,7 +7,7 @@
 #include <stdbool.h>
 
 /* Functions for which the graph has no operation; their numbers are larger than those of all operations. */
-enum { CALL_DOT = 1000, CALL_CROSS, CALL_IF, CALL_DIFF };
+enum { CALL_DOT = 1000, CALL_CROSS, CALL_IF, CALL_DIFF, CALL_INTERP, CALL_SPLINE };
 
 /* Returns the name of function k, in a fixed order; NULL: k is past the last. */
 const char *words_called(size_t k);

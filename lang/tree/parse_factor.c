@@ -144,6 +144,17 @@ static int arity(int operation)
     return operation_is(operation, OF_MANY) ? -2 : operation_at(operation)->arity; /* -2: at least two */
 }
 
+static bool of_table(int operation) { return operation == CALL_INTERP || operation == CALL_SPLINE; }
+
+/* Takes the word `hold` from the end of the arguments of a table [19]. */
+static void take_hold(tree *t)
+{
+    const tree *last = t->item[t->count - 1];
+    if (last->kind != TREE_NAME || last->primes || last->index_count || strcmp(last->name, "hold")) return;
+    t->count--;
+    t->primes = 1;
+}
+
 /* call = function "(" inside { "," inside } ")" [5] */
 static tree *parse_call(parser *p, span name)
 {
@@ -174,6 +185,13 @@ static tree *parse_call(parser *p, span name)
     t->name = text;
     parse_items(p, t, ')', "or a comma");
     if (failed(p)) return t;
+    if (of_table(operation)) {
+        take_hold(t);
+        if (t->count == 3 || t->count == 4) return t;
+        COMPLAIN(p, &t->at, "%s takes its argument, and a table", text);
+        HINT(p, "write %s(t, T, A) with lists of points and values, or %s(t, t0, dt, A) on a uniform grid", text, text);
+        return t;
+    }
     int wanted = arity(operation);
     if (wanted < 0 ? t->count < (uint32_t)-wanted : t->count != (uint32_t)wanted) {
         COMPLAIN(p, &t->at, "%s takes %s%d argument%s, not %u", text, wanted < 0 ? "at least " : "",

@@ -37,11 +37,11 @@ typedef struct loop {
 
 /* Every number, name and operator of the text has one, so it is small. */
 typedef struct tree {
-    uint8_t kind;           /* tree_kind */
-    bool bracketed : 1;     /* it stood in ( ) of its own */
-    bool blank_product : 1; /* MULTIPLY: a name, a blank and a bracket: f (x) */
-    bool divisor : 1;       /* APPLY: it is a divisor: a/f(x) */
-    uint8_t primes, loop_count;
+    uint8_t kind;               /* tree_kind */
+    bool bracketed : 1;         /* it stood in ( ) of its own */
+    bool blank_product : 1;     /* MULTIPLY: a name, a blank and a bracket: f (x) */
+    bool divisor : 1;           /* APPLY: it is a divisor: a/f(x) */
+    uint8_t primes, loop_count; /* CALL of a table: primes 1: `hold` is the item after the last */
     int16_t operation;
     uint16_t index_count;
     uint32_t count;

@@ -46,7 +46,11 @@ static void fenced(typesetter *p, fence f, tree *const *item, uint32_t count, co
     typeset_tag(p, close_fence[f][stretch]);
 }
 
-void typeset_items(typesetter *p, fence f, const tree *t, place at) { fenced(p, f, t->item, t->count, NULL, at); }
+/* The word `hold` of a table stands after its arguments. */
+void typeset_items(typesetter *p, fence f, const tree *t, place at)
+{
+    fenced(p, f, t->item, t->count + (t->kind == TREE_CALL ? t->primes : 0u), NULL, at);
+}
 void typeset_arguments(typesetter *p, const tree *t, place at)
 {
     fenced(p, FENCE_ROUND, t->item + 1, t->count - 1, NULL, at);

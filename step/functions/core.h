@@ -5,7 +5,8 @@
  * definitions of its own, or for plain doubles none; then this file, the texts that it needs, in this order, and end.h,
  * after which other definitions may follow:
  *
- *     core.h  plain.h  exponential.h  logarithm.h  power.h  hyperbolic.h  circular.h  inverse.h  root.h  error.h  end.h
+ *     core.h  plain.h  exponential.h  logarithm.h  power.h  hyperbolic.h  circular.h  inverse.h  root.h  error.h
+ *     table.h  end.h
  *
  *     reals, bits         doubles and unsigned 64-bit integers, one of each per lane
  *     mask                what a comparison of reals or of bits gives; & and | combine masks

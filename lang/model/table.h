@@ -1,0 +1,43 @@
+/* Tables: what ENTRY and FIND of lang/base/operations.def read, made from lists of the pool.
+ *
+ * A table is an array of the pool. Its first number counts those that follow, row by row. Tables follow from lists as
+ * parameters do from parameters: each has a line in the log of the model (vary_record.h).
+ *
+ * An interpolation over n points has n + 1 rows: row k stands for the interval from point k on, row 0 for what is
+ * before the first point, row n for what is beyond the last.
+ */
+#ifndef LANG_MODEL_TABLE_H
+#define LANG_MODEL_TABLE_H
+
+#include "lang/model/model.h"
+
+typedef enum table_kind {
+    TABLE_LIST,   /* a column: row k is entry k of a list, row 0 is not a number */
+    TABLE_POINTS, /* four columns, for FIND: see table_position */
+    TABLE_LINEAR, /* three columns: point x, value c0, slope c1: c0 + c1 (u - x) */
+    TABLE_SPLINE  /* five columns: x, c0 … c3: the natural cubic spline, of second derivatives 0 at both ends */
+} table_kind;
+int table_columns(table_kind);
+
+/* What a table is made of; equal ones are one table. */
+typedef struct table {
+    table_kind kind;
+    bool hold;             /* before and beyond the points the end values hold; else the values are not numbers */
+    uint16_t list, points; /* the values, and the points where they are: arrays of the pool with one index */
+    uint16_t array;        /* the table itself */
+    const char *name;      /* for messages: "T", "T, A"; equal tables need not have equal names */
+} table;
+
+/* Finds or makes a table. False: no memory. */
+bool table_make(model *, const table *want, uint16_t *array);
+/* Computes the numbers of a table from those of its lists. */
+void table_fill(const model *, const table *);
+/* Returns number `column` of a row. */
+node table_entry(graph *, node row, table_kind, int column, node of);
+/* Returns the value of an interpolation in a row of its table. */
+node table_value(graph *, node u, node row, table_kind, node of);
+/* Returns a smooth function of u, as long as the row is held, that is row k at point k and k + 1 at point k + 1. In the
+ * last row and in row 0 it comes near to n + 1 and 0 far from the points. `points`: their TABLE_POINTS. */
+node table_position(graph *, node u, node row, node points);
+
+#endif

@@ -1,0 +1,312 @@
+/* Tables: interp and spline beside their own formulas, in forces and in quantities, forward and backward, interpreted
+ * and compiled; what lies outside; entries of lists whose number moves.
+ *
+ * The truth of a linear oscillator between two points of a table is a formula, evaluated in long double.
+ */
+#include "test/given.h"
+#include "test/given_cache.h"
+
+#define POINTS 4001
+static double record[POINTS];
+
+/* A record of noise that swings: every entry is a decimal of five digits. */
+static void make_record(void)
+{
+    uint32_t seed = 7;
+    for (int k = 0; k < POINTS; k++) {
+        seed = seed * 1664525u + 1013904223u;
+        record[k] = round(1e5 * sin(0.013 * k) * ((double)(seed >> 8) / (1 << 24) - 0.5)) / 1e5;
+    }
+}
+
+/* Writes a list of the record's first entries. */
+static size_t write_record(char *to, size_t size, int count)
+{
+    size_t n = (size_t)snprintf(to, size, "A = [");
+    for (int k = 0; k < count; k++) n += (size_t)snprintf(to + n, size - n, "%s%.5f", k ? ", " : "", record[k]);
+    return n + (size_t)snprintf(to + n, size - n, "]\n");
+}
+
+/* Leads x'' = -2 zeta w x' - w^2 x - a(t) over one interval, a from a0 to a1. */
+static void exact_piece(long double zeta, long double w, long double h, long double a0, long double a1, long double *x,
+                        long double *v)
+{
+    const long double slope = (a1 - a0) / h, w2 = w * w;
+    const long double p1 = -slope / w2, p0 = (-a0 - 2 * zeta * w * p1) / w2; /* p0 + p1 t is one solution */
+    const long double damped = w * sqrtl(1 - zeta * zeta), decay = zeta * w;
+    const long double c = *x - p0, d = (*v - p1 + decay * c) / damped;
+    const long double e = expl(-decay * h), co = cosl(damped * h), si = sinl(damped * h);
+    *x = e * (c * co + d * si) + p0 + p1 * h;
+    *v = e * ((d * damped - decay * c) * co - (c * damped + decay * d) * si) + p1;
+}
+
+static motus_run *run_to(motus_system *s, const char *method, const char *machine, double tolerance, double until)
+{
+    motus_run_def def = motus_default_run();
+    motus_error err = motus_default_error();
+    motus_run *r = NULL;
+    def.method = method;
+    def.machine = machine;
+    def.tolerance = tolerance;
+    def.until = until;
+    must(motus_run_create(s, &def, &r, &err), &err, method);
+    must(motus_run_finish(r, &err), &err, method);
+    return r;
+}
+
+static void state_of(motus_run *r, double *x, double *v)
+{
+    motus_error err = motus_default_error();
+    must(motus_run_state(r, x, v, &err), &err, "state");
+}
+
+static void a_force_of_measured_numbers(void **state)
+{
+    (void)state;
+    static char text[16 * POINTS];
+    make_record();
+    const size_t n = write_record(text, sizeof text, POINTS);
+    snprintf(text + n, sizeof text - n,
+             "w = 4\nzeta = 0.02\nx'' = -2 zeta w x' - w^2 x - interp(t, 0, 0.02, A)\nx(0) = 0.1; x'(0) = 0\n");
+    motus_system *s = given_text(text);
+    const int ends[] = {1, 37, 1000, POINTS - 1};
+    for (size_t k = 0; k < sizeof ends / sizeof *ends; k++) {
+        long double x = 0.1L, v = 0, most = 0.1L;
+        for (int i = 0; i < ends[k]; i++) {
+            /* the points are doubles near k/50 */
+            const long double h = (long double)((i + 1) * 0.02) - (long double)(i * 0.02);
+            exact_piece(0.02L, 4, h, record[i], record[i + 1], &x, &v);
+            most = fmaxl(most, fabsl(x));
+        }
+        const char *const methods[] = {"dop853", "taylor"};
+        for (int m = 0; m < 2; m++) {
+            double got[2], other[2];
+            motus_run *r = run_to(s, methods[m], "interpreter", 1e-14, ends[k] * 0.02);
+            motus_run *c = run_to(s, methods[m], "compiled", 1e-14, ends[k] * 0.02);
+            state_of(r, got, got + 1);
+            state_of(c, other, other + 1);
+            if (!(fabsl(got[0] - x) <= 1e-12L * most))
+                fail_msg("%s, %d points: %.17g is not %.17Lg", methods[m], ends[k], got[0], x);
+            assert_memory_equal(got, other, sizeof got);
+            motus_run_destroy(r);
+            motus_run_destroy(c);
+        }
+    }
+    motus_system_destroy(s);
+}
+
+/* Backward from where a run forward ended, back to the start. */
+static void backward(void **state)
+{
+    (void)state;
+    static const char text[] = "T = [0, 0.3, 1, 4]\nA = [1, -1, 2, 0]\nx'' = -x + %s(t, T, A)\nx(%s) = %.17g; x'(%s) = "
+                               "%.17g\n";
+    const char *const kinds[] = {"interp", "spline"};
+    for (int k = 0; k < 2; k++) {
+        char forward[400], back[400];
+        double at[2], home[2];
+        snprintf(forward, sizeof forward, text, kinds[k], "0", 0.5, "0", 0.25);
+        motus_system *s = given_text(forward);
+        motus_run *r = run_to(s, "dop853", "interpreter", 1e-13, 4);
+        state_of(r, at, at + 1);
+        motus_run_destroy(r);
+        motus_system_destroy(s);
+        snprintf(back, sizeof back, text, kinds[k], "4", at[0], "4", at[1]);
+        s = given_text(back);
+        r = run_to(s, "dop853", "interpreter", 1e-13, 0);
+        state_of(r, home, home + 1);
+        if (!(fabs(home[0] - 0.5) < 1e-11 && fabs(home[1] - 0.25) < 1e-11))
+            fail_msg("%s: back at %.17g, %.17g", kinds[k], home[0], home[1]);
+        motus_run_destroy(r);
+        motus_system_destroy(s);
+    }
+}
+
+static const char lists[] = "T = [0, 1, 2.5, 4]\nA = [1, 3, -2, 2]\nB = [(1, 0), (0, 1), (2, 2), (3, 1)]\n";
+
+/* Returns component k of a quantity of a model at the position x. */
+static double value_at(const char *formula, size_t k, double x)
+{
+    char text[1000];
+    snprintf(text, sizeof text, "%sx'' = 0\nx(0) = %.17g; x'(0) = 1\nq = %s\n", lists, x, formula);
+    motus_system *s = given_text(text);
+    motus_run_def def = motus_default_run();
+    motus_error err = motus_default_error();
+    motus_run *r = NULL;
+    size_t first, count;
+    double out;
+    def.method = "rk4";
+    def.step = 0.01;
+    def.until = 1;
+    must(motus_run_create(s, &def, &r, &err), &err, text);
+    must(motus_column_find(s, "q", &first, &count, &err), &err, "q");
+    first += k;
+    must(motus_run_values(r, &first, 1, &out, &err), &err, text);
+    motus_run_destroy(r);
+    motus_system_destroy(s);
+    return out;
+}
+
+static void is_near(const char *formula, size_t k, double x, double wanted)
+{
+    const double got = value_at(formula, k, x);
+    if (!(fabs(got - wanted) <= 1e-15 * 8)) fail_msg("%s at %g: %.17g, not %.17g", formula, x, got, wanted);
+}
+
+/* The natural spline through the points of `lists`, by the equations of its second derivatives M1 and M2,
+ *     2 (h0 + h1) M1 + h1 M2 = 6 (d1 - d0),   h1 M1 + 2 (h1 + h2) M2 = 6 (d2 - d1). */
+static double spline_at(double u)
+{
+    static const double x[] = {0, 1, 2.5, 4}, y[] = {1, 3, -2, 2};
+    double h[3], d[3], m[4] = {0};
+    for (int k = 0; k < 3; k++) h[k] = x[k + 1] - x[k], d[k] = (y[k + 1] - y[k]) / h[k];
+    const double a = 2 * (h[0] + h[1]), b = h[1], c = 2 * (h[1] + h[2]), p = 6 * (d[1] - d[0]), q = 6 * (d[2] - d[1]);
+    m[1] = (p * c - b * q) / (a * c - b * b), m[2] = (a * q - b * p) / (a * c - b * b);
+    int k = u < 1 ? 0 : u < 2.5 ? 1 : 2;
+    const double l = x[k + 1] - u, r = u - x[k];
+    return (m[k] * l * l * l + m[k + 1] * r * r * r) / (6 * h[k]) + (y[k] / h[k] - m[k] * h[k] / 6) * l +
+           (y[k + 1] / h[k] - m[k + 1] * h[k] / 6) * r;
+}
+
+static void values(void **state)
+{
+    (void)state;
+    is_near("interp(x, T, A)", 0, 0, 1), is_near("interp(x, T, A)", 0, 1, 3), is_near("interp(x, T, A)", 0, 4, 2);
+    is_near("interp(x, T, A)", 0, 0.25, 1.5), is_near("interp(x, T, A)", 0, 1.75, 0.5);
+    is_near("interp(x, 10, 2, A)", 0, 13, 0.5);
+    is_near("interp(x, [0, 1, 3], [5, 6, 8])", 0, 2, 7);
+    is_near("interp(x, T, B)", 1, 1.75, 1.5), is_near("spline(x, T, B)", 0, 2.5, 2);
+    is_near("interp(x, T, A, hold)", 0, -7, 1), is_near("interp(x, T, A, hold)", 0, 4.5, 2);
+    is_near("spline(x, T, A, hold)", 0, -1e9, 1);
+    is_near("diff(interp(x, T, A), x)", 0, 0.5, 2), is_near("diff(interp(x, T, A, hold), x)", 0, 9, 0);
+    is_near("A[floor(x)]", 0, 3.9, -2), is_near("B[floor(x) + 1]", 1, 1, 1), is_near("A[floor(x)^2]", 0, 2, 2);
+    for (double u = 0; u < 4; u += 0.2) is_near("spline(x, T, A)", 0, u, spline_at(u));
+}
+
+/* What is set or varied changes the tables that are made of it. */
+static void set(void **state)
+{
+    (void)state;
+    static const char text[] = "k = 1\nT = [0, 1, k + 1]\nA = [1, 3, k]\nx'' = -x + spline(t, T, A)\nx(0) = 0; x'(0) = "
+                               "0\n";
+    const char *const three = "k = 3";
+    const double value = 3;
+    motus_error err = motus_default_error();
+    motus_system *written = given_text_with(text, &three, 1, "three"), *changed = given_text(text);
+    motus_run *before = run_to(changed, "dop853", "interpreter", 1e-10, 2);
+    double one[2], other[2];
+    state_of(before, other, other + 1);
+    motus_run_destroy(before);
+    must(motus_system_set(changed, "k", &value, 1, &err), &err, "set");
+    motus_run *a = run_to(written, "dop853", "interpreter", 1e-10, 2),
+              *b = run_to(changed, "dop853", "compiled", 1e-10, 2);
+    state_of(a, one, one + 1);
+    assert_true(one[0] != other[0]);
+    state_of(b, other, other + 1);
+    assert_memory_equal(one, other, sizeof one);
+    motus_run_destroy(a);
+    motus_run_destroy(b);
+    motus_system_destroy(written);
+    motus_system_destroy(changed);
+}
+
+/* A mass on a spring whose force is a table of its position: its turning points are those of equal energy, and between
+ * the points of the table its motion is that of a constant slope. */
+static void a_force_of_the_position(void **state)
+{
+    (void)state;
+    motus_system *s = given_text("X = [-2, 0, 2]\nF = [6, 0, -2]\nx'' = interp(x, X, F)\nx(0) = 1; x'(0) = 0\n");
+    const double right = acos(-1) / 2, left = acos(-1) / sqrt(3.0);
+    const double times[] = {right, right + left / 2, right + left, 2 * right + left},
+                 wanted[] = {0, -1 / sqrt(3.0), 0, 1};
+    const char *const methods[] = {"dop853", "taylor"};
+    for (int m = 0; m < 2; m++)
+        for (int k = 0; k < 4; k++) {
+            double at[2];
+            motus_run *r = run_to(s, methods[m], NULL, 1e-13, times[k]);
+            state_of(r, at, at + 1);
+            if (!(fabs(at[0] - wanted[k]) < 1e-11)) fail_msg("%s: %.17g, not %.17g", methods[m], at[0], wanted[k]);
+            motus_run_destroy(r);
+        }
+    motus_system_destroy(s);
+}
+
+static void fails(const char *formula, const char *method, const char *words)
+{
+    char text[600];
+    snprintf(text, sizeof text, "%sx'' = %s\nx(0) = 3.5; x'(0) = 1\n", lists, formula);
+    motus_system *s = given_text(text);
+    motus_run_def def = motus_default_run();
+    motus_error err = motus_default_error();
+    motus_run *r = NULL;
+    def.method = method;
+    def.until = 9;
+    if (!strcmp(method, "rk4")) def.step = 0.01;
+    motus_status status = motus_run_create(s, &def, &r, &err);
+    if (!status) status = motus_run_finish(r, &err);
+    assert_true(status != MOTUS_OK);
+    if (!strstr(err.message, words)) fail_msg("%s by %s: %s", formula, method, err.message);
+    motus_run_destroy(r);
+    motus_system_destroy(s);
+}
+
+static void outside(void **state)
+{
+    (void)state;
+    const char *const methods[] = {"dop853", "taylor", "rk4"};
+    for (int m = 0; m < 3; m++) {
+        fails("interp(t, T, A)", methods[m], "at t = 4 t goes beyond the last point of the table T, A, 4");
+        fails("spline(x, T, A) + 5", methods[m], "x goes beyond the last point of the table T, A, 4");
+        fails("interp(x - 9, T, A)", methods[m], "at t = 0 x - 9 goes before the first point of the table T, A, 0");
+        fails("A[floor(t) + 1]", methods[m], "A has the entries 1 to 4, and 5 is asked for");
+    }
+}
+
+static void refused(const char *line, const char *words)
+{
+    char text[600];
+    snprintf(text, sizeof text, "%sM = [[1, 2], [3, 4]]\nk = 3\nx'' = %s\nx(0) = 0; x'(0) = 0\n", lists, line);
+    motus_text_def def = motus_default_text();
+    motus_error err = motus_default_error();
+    motus_system *s = NULL;
+    def.text = text;
+    assert_true(motus_system_from_text(&def, &s, &err) != MOTUS_OK);
+    assert_null(s);
+    if (!strstr(err.message, words)) fail_msg("%s: %s", line, err.message);
+}
+
+static void bad_tables(void **state)
+{
+    (void)state;
+    refused("interp(t, A)", "interp takes its argument, and a table");
+    refused("interp(t, 0, 1, 2, A)", "interp takes its argument, and a table");
+    refused("interp(t, k, A)", "interp takes a list here, and k is none");
+    refused("interp(t, M, A)", "interp takes a list here, and M is none");
+    refused("interp(t, x, A)", "interp takes a list here, and x is none");
+    refused("interp(t, A, T)", "the points of a table rise, but in A number 2 is 3 and number 3 -2");
+    refused("interp(t, B, A)", "the points of a table are numbers, not vectors");
+    refused("interp(t, [0, 1], A)", "2 points, but 4 values");
+    refused("interp(t, 0, -1, A)", "the points of a table rise");
+    refused("interp(t, [0], [1])", "a table has two points or more");
+    refused("interp(B, T, A)", "B is a list");
+    refused("A[t]", "an index is a whole number, and t is not always one");
+    refused("A[x + 1]", "an index is a whole number, and x + 1 is not always one");
+    refused("diff(interp(t, T, A), A[2])", "depends on A[2]");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(values),
+        cmocka_unit_test(a_force_of_measured_numbers),
+        cmocka_unit_test(a_force_of_the_position),
+        cmocka_unit_test(backward),
+        cmocka_unit_test(set),
+        cmocka_unit_test(outside),
+        cmocka_unit_test(bad_tables),
+    };
+    open_shared_cache();
+    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    close_cache();
+    return failed;
+}
