@@ -840,6 +840,33 @@ static void rule_20_rates(void **unused)
     motus_system_destroy(s);
 }
 
+/* The time has the name that the model gives it, and t is a coordinate if it has an equation. */
+static void rule_21_time(void **unused)
+{
+    (void)unused;
+    const char *const rest = "\nx(0) = 1\nx'(0) = 0\nq = x(0)",
+                      *const cases[][3] = {
+                          {"x'' = -x + t", "t", "x'' = -x + t"},
+                          {"time s\nx'' = -x + s", "s", "x'' = -x + s"},
+                          {"x'' = -x + F(1)\nF(t) = t^2 tau\ntime tau", "tau", "x'' = -x + 1 tau"},
+                          {"time s\nt = 3\nx'' = -t x + s", "s", "x'' = -t x + s"},
+                          {"x'' = -x + t + tau\nt' = 2\nt(0) = 0", "tau", "x'' = -x + t + tau"},
+                          {"x'' = -x + t + s\nt' = 2\nt(0) = 0\ntau = 3", "s", "x'' = -x + t + s"},
+                          {"x'' = -time x\ntime = 3", "t", "x'' = -time x"},
+                          {"x'' = -time x\ntime' = x\ntime(0) = 3", "t", "x'' = -time x"},
+                      };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[512];
+        snprintf(text, sizeof text, "%s%s", cases[i][0], rest);
+        motus_system *s = given_text(text);
+        motus_column time = motus_default_column();
+        assert_int_equal(motus_column_at(s, 0, &time), MOTUS_OK);
+        assert_string_equal(time.name, cases[i][1]);
+        assert_string_equal(motus_equation_text(s, 0), cases[i][2]);
+        motus_system_destroy(s);
+    }
+}
+
 static void rule_17_derivatives(void **unused)
 {
     (void)unused;
@@ -1122,6 +1149,7 @@ int main(void)
         cmocka_unit_test(rule_16_set),
         cmocka_unit_test(rule_20_left_sides),
         cmocka_unit_test(rule_20_rates),
+        cmocka_unit_test(rule_21_time),
         cmocka_unit_test(rule_17_derivatives),
         cmocka_unit_test(rule_17_many_cells),
         cmocka_unit_test(rule_17_forces),

@@ -82,6 +82,11 @@ static void say_variables(sentences *w, const motus_system *s)
         sentences_say(w, st->order == 2 ? "; its acceleration is given\n"
                                         : "; its rate of change is given (a first-order variable)\n");
     }
+    bool coordinate = false;
+    for (uint32_t i = 0; i < s->state_count; i++) coordinate |= !strcmp(s->states[i].name, "t");
+    if (strcmp(s->model->time, "t"))
+        sentences_say(w, "the time is named %s%s\n", s->model->time,
+                      coordinate ? ", since t has an equation of motion" : "");
 }
 
 #define SAMPLED ", as far as sampled at random states of many sizes, since the formulas were not proof"

@@ -61,7 +61,7 @@ static bool take_name(const char *p, column_name *n)
 static const char *range_name(const motus_system *s, const column_range *g)
 {
     switch (g->kind) {
-    case MOTUS_COLUMN_TIME: return "t";
+    case MOTUS_COLUMN_TIME: return columns_time(s);
     case MOTUS_COLUMN_QUANTITY:
     case MOTUS_COLUMN_INVARIANT: return s->definitions[g->item].name;
     default: return s->states[g->item].name;
@@ -101,7 +101,7 @@ static motus_status no_column(const motus_system *s, const char *name, const cha
     if (best && strcmp(best, base))
         hint(err, "did you mean %s?", best);
     else if (s->column_count > 1 && motus_column_at(s, 1, &c) == MOTUS_OK)
-        hint(err, "the columns are t, %s … as a trajectory file names them", c.name);
+        hint(err, "the columns are %s, %s … as a trajectory file names them", columns_time(s), c.name);
     return MOTUS_NAME;
 }
 

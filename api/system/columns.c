@@ -450,7 +450,7 @@ static motus_column describe(const motus_system *s, size_t k)
     const column_range *g = columns_range(s, k);
     motus_column c = {.kind = g->kind, .variable = g->item, .is_velocity = g->prime};
     if (g->kind == MOTUS_COLUMN_TIME) {
-        snprintf(c.name, sizeof c.name, "t");
+        snprintf(c.name, sizeof c.name, "%s", columns_time(s));
         return c;
     }
     const model_state shape = columns_shape(s, g);

@@ -4,6 +4,8 @@
 
 #include "api/system/system.h"
 
+/* The name of the time, the first column. */
+static inline const char *columns_time(const motus_system *s) { return s->model ? s->model->time : "t"; }
 static inline size_t columns_parts(int components) { return components ? (size_t)components : 1; }
 
 const column_range *columns_range(const motus_system *, size_t k);

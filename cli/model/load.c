@@ -137,6 +137,8 @@ motus_status load_model(load *m, const options *o, motus_error *err)
     if (!status) status = components_set(m->system, &o->set, err);
     if (status) return status;
     stop_catch_signals(); /* until now there was nothing to clean up, so signals could end the program at once */
+    motus_column time = motus_default_column();
+    if (motus_column_at(m->system, 0, &time) == MOTUS_OK) snprintf(m->time, sizeof m->time, "%s", time.name);
     m->positions = motus_positions(m->system);
     m->velocities = motus_velocities(m->system);
     m->quantities = numbers_of(m->system, motus_quantity_name);

@@ -25,10 +25,11 @@ const char *defined_label(const defined *, const char *column, const char **rest
 typedef struct load {
     char *text;
     motus_system *system;
-    size_t positions, velocities;  /* columns: t, then these, then quantities, invariants, the exact motion */
+    size_t positions, velocities;  /* columns: the time, then these, then quantities, invariants, the exact motion */
     size_t quantities, invariants; /* how many numbers they have */
     motus_settings set;            /* set by settle.c: what the command asks of the model, and who says it */
     defined defined;               /* quantities that --record adds */
+    char time[2 * MOTUS_NAME_MAX]; /* the name of the time, column 0 */
     char title[MOTUS_NAME_MAX];    /* the file's name without folder and ending, safe to print */
 } load;
 

@@ -14,11 +14,12 @@ static void print_end(const summary *s, FILE *out)
     const motus_estimate *e = &s->estimate;
     char t[DECIMAL_MAX], rate[DECIMAL_MAX], gain[DECIMAL_MAX];
     decimal_time(e->significant_until, motus_run_time(s->run) - s->start, t);
-    fprintf(out, "no digit is known to be significant after t = %s", t);
+    fprintf(out, "no digit is known to be significant after %s = %s", s->model->time, t);
     if (isfinite(e->rate)) {
         text_brief(e->rate, 2, rate);
         text_brief(LN_10 / e->rate, 2, gain);
-        fprintf(out, " (errors grow as e^{%s t}; a tenth of the error moves that time on by %s)", rate, gain);
+        fprintf(out, " (errors grow as e^{%s %s}; a tenth of the error moves that time on by %s)", rate, s->model->time,
+                gain);
     }
     putc('\n', out);
 }

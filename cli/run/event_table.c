@@ -44,7 +44,7 @@ static bool any_touched(const summary *s)
 static void put_heading(const summary *s, table *t, bool touched)
 {
     table_cell(t, "event");
-    table_cell(t, "t");
+    table_cell(t, s->model->time);
     table_cell(t, "count");
     if (touched) table_cell(t, "touched");
     for (size_t k = 0; k < shown_of(s); k++) {
@@ -125,9 +125,10 @@ void event_table_unseen(const summary *s, FILE *out)
     if (!done.events_unseen) return;
     text_brief(done.events_unseen_from, 6, from);
     fprintf(out,
-            "\nevents of %s that are far shorter than a step may have been missed in %lld step%s, from t = %s on: "
+            "\nevents of %s that are far shorter than a step may have been missed in %lld step%s, from %s = %s on: "
             "no bound excludes them there, and smaller steps see more\n",
-            done.events_unseen_of, (long long)done.events_unseen, done.events_unseen == 1 ? "" : "s", from);
+            done.events_unseen_of, (long long)done.events_unseen, done.events_unseen == 1 ? "" : "s", s->model->time,
+            from);
 }
 
 /* Writes "bounces accumulate", or "event1 accumulates" if the plural of the name does not add an s. */
@@ -154,11 +155,11 @@ void event_table_end(const summary *s, FILE *out)
         if (isinf(error))
             fprintf(out, "; no digit of their limit is known to be significant\n");
         else
-            fprintf(out, " at t = %s\n", text);
+            fprintf(out, " at %s = %s\n", s->model->time, text);
     }
     /* a run that accumulation has ended stands at the last event that could be told apart from the limit */
     const double gone = motus_run_time(s->run) - s->start;
     const bool there = accumulated && strcmp(name, of) == 0 && !(fabs(gone) > fabs(time - s->start) + error);
     decimal(motus_run_time(s->run), now);
-    if (name[0] && !there) fprintf(out, "%s ended the run at t = %s\n", name, now);
+    if (name[0] && !there) fprintf(out, "%s ended the run at %s = %s\n", name, s->model->time, now);
 }

@@ -149,7 +149,7 @@ static bool add_heat(figure *f, const motus_variable *v, const figure_place *pla
     size_t shown = place->cells < HEAT_CELLS ? place->cells : HEAT_CELLS;
     snprintf(title, sizeof title, "%s, every cell against time", v->name);
     size_t panel = f->plot.count;
-    if (!add_panel(f, title, "t", v->dimensions == 1 ? "index" : "cell")) return false;
+    if (!add_panel(f, title, f->model->time, v->dimensions == 1 ? "index" : "cell")) return false;
     double span = place->cells > 1 && shown > 1 ? (double)(place->cells - 1) / (double)(shown - 1) : 1;
     f->heats[f->heat_count++] = (figure_heat){.panel = panel,
                                               .first = f->coarse.count,
@@ -222,7 +222,7 @@ static bool add_variable(figure *f, const motus_variable *v, shared *s)
         if (first && !room_for_panel(f)) return true;
         if (first) {
             s->scalars = f->plot.count;
-            if (!add_panel(f, "motion", "t", v->name)) return false;
+            if (!add_panel(f, "motion", f->model->time, v->name)) return false;
         }
         plot_panel *p = &f->plot.panels[s->scalars];
         if (!first) p->y_label[0] = 0;
@@ -242,7 +242,7 @@ static bool add_variable(figure *f, const motus_variable *v, shared *s)
     }
     if (v->components == 0 && place.cells > BUNDLE)
         return full_grid(v, place.cells) ? add_field(f, v, &place) : add_heat(f, v, &place);
-    plot_panel *p = add_panel(f, v->order == 2 ? "motion" : v->name, "t", v->name);
+    plot_panel *p = add_panel(f, v->order == 2 ? "motion" : v->name, f->model->time, v->name);
     return p && add_numbers(f, p, &place, exact);
 }
 
@@ -251,7 +251,7 @@ static bool add_named(figure *f, const char *name, size_t first, size_t numbers,
     if (!room_for_panel(f)) return true;
     char title[PLOT_LABEL];
     snprintf(title, sizeof title, "%s%s", change ? "drift of " : "", name);
-    plot_panel *p = add_panel(f, title, "t", change ? "change since the start" : name);
+    plot_panel *p = add_panel(f, title, f->model->time, change ? "change since the start" : name);
     size_t shown = numbers < MOST_CURVES ? numbers : MOST_CURVES;
     f->left_out = f->left_out || shown < numbers;
     for (size_t k = 0; p && k < shown; k++)
@@ -412,7 +412,8 @@ static void tell_unknown(figure *f, double known_until)
     if (rows == 0 || rows_until(f, known_until) == rows) return;
     decimal_time(known_until, f->t[rows - 1] - f->t[0], time);
     const size_t length = strlen(f->plot.title);
-    snprintf(f->plot.title + length, sizeof f->plot.title - length, "; no digit is known after t = %s (dotted)", time);
+    snprintf(f->plot.title + length, sizeof f->plot.title - length, "; no digit is known after %s = %s (dotted)",
+             f->model->time, time);
     for (size_t i = 0; i < f->heat_count; i++)
         if (!f->heats[i].field) f->plot.panels[f->heats[i].panel].unknown_from = known_until;
 }

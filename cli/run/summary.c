@@ -217,7 +217,7 @@ static void head(const summary *s, FILE *out, bool colours)
         fprintf(out, "interpreter, then compiled from step %lld\n", (long long)done.compiled_from + 1);
     else
         fprintf(out, "%s\n", done.machine);
-    fprintf(out, "t = %s to %s in %lld steps", from, to, (long long)motus_run_steps(s->run));
+    fprintf(out, "%s = %s to %s in %lld steps", s->model->time, from, to, (long long)motus_run_steps(s->run));
     const bool ended = motus_run_ended(s->run, NULL, NULL, NULL)[0]; /* if so, `until` has shortened no step */
     if (done.shorter_last != 0 && !ended) fprintf(out, " (the last one %s)", last);
     if (done.refused > 0) fprintf(out, " and %lld refused", (long long)done.refused);

@@ -50,7 +50,8 @@ static bool add_variable(overlay *v, const motus_variable *var)
         s.exact[0] = plane ? exact_place.first : 0;
         s.exact[1] = plane ? exact_place.first + exact_place.component_step : exact_place.first;
     }
-    return plane ? add_slot(v, "motion", name[0].name, name[1].name, s) : add_slot(v, "motion", "t", name[0].name, s);
+    return plane ? add_slot(v, "motion", name[0].name, name[1].name, s)
+                 : add_slot(v, "motion", v->model->time, name[0].name, s);
 }
 
 static bool add_panels(overlay *v)
@@ -63,7 +64,7 @@ static bool add_panels(overlay *v)
     char title[PLOT_LABEL];
     size_t numbers;
     snprintf(title, sizeof title, "drift of %s", motus_invariant_name(system, 0, &numbers));
-    return add_slot(v, title, "t", "change since the start",
+    return add_slot(v, title, v->model->time, "change since the start",
                     (slot){.columns = {0, load_invariant_column(v->model)}, .timelike = true, .change = true});
 }
 

@@ -105,7 +105,7 @@ static void report(const sweep *s, const sweep_file *f, double wall)
                     : "tolerance",
             step, s->absolute ? " absolute" : "");
     if (now.steps > 0) fprintf(out, "%lld steps ", (long long)now.steps);
-    fprintf(out, "to t = %s, ", isnan(s->until) ? "its own end" : until);
+    fprintf(out, "to %s = %s, ", s->model.time, isnan(s->until) ? "its own end" : until);
     const bool elsewhere = f->archive && (f->found > 0 || s->options->team); /* other trajectories lie between ours */
     if (now.compiled_from > 0 && elsewhere)
         fputs("interpreter, then compiled", out);

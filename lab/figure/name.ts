@@ -10,6 +10,9 @@ const GREEK: Readonly<Record<string, string>> = {
   Gamma: 'Γ', Delta: 'Δ', Theta: 'Θ', Lambda: 'Λ', Xi: 'Ξ', Pi: 'Π', Sigma: 'Σ', Phi: 'Φ', Psi: 'Ψ', Omega: 'Ω',
 };
 
+/** The name of the time, the first column: t, unless the model says another. */
+export const timeName = (solution: { readonly columns: readonly string[] }): string => solution.columns[0] ?? 't';
+
 /** A name in italic letters, its index lowered. */
 export function nameSpans(name: string, size: number): Span[] {
   const start = /^(.*?)(\(0\)(?:\.\w+)?)$/.exec(name);

@@ -5,7 +5,7 @@
 import type { Scene } from '../scene';
 import type { Column } from '../protocol';
 import { extent } from '../figure/axes';
-import { nameSpans } from '../figure/name';
+import { nameSpans, timeName } from '../figure/name';
 import { grouped, readable } from '../figure/number';
 import { rowAt, valueAt } from '../figure/track';
 import type { Said, Span, Table } from '../figure/types';
@@ -96,7 +96,7 @@ export const headName = (name: string): Span[] => nameSpans(name, 13);
 /** One row for each time; for each of `names` the exact value where it is known there, and each method's. series: other numbers than the tracks' columns;
  * heads: how a reader sees the names, where they are no columns'. */
 export function timeTable(scene: Scene, names: readonly string[], series?: (track: number, name: string) => ArrayLike<number>, heads: Readonly<Record<string, Said>> = {}): Table {
-  const { solution } = scene, times = allTimes(scene), head = ['t'], shown: Said[] = [headName('t')];
+  const { solution } = scene, times = allTimes(scene), t = timeName(solution), head = [t], shown: Said[] = [headName(t)];
   const readers: ((t: number) => number)[] = [];
   const atRow = (of: ArrayLike<number>, column: ArrayLike<number>) => (t: number): number => {
     const i = rowAt(of, t);

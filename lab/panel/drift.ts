@@ -13,7 +13,7 @@ import { drawEnds, endIn, endOf, endsLayout, heightsIn, type End, type EndsLayou
 import { nameExports } from '../figure/export';
 import { figure } from '../figure/figure';
 import { recoloured } from '../figure/ink';
-import { nameSpans, nameText } from '../figure/name';
+import { nameSpans, nameText, timeName } from '../figure/name';
 import { brief, readable } from '../figure/number';
 import { EXACT_WIDTH, begin, drawTrack, valueAt } from '../figure/track';
 import type { AxisDefinition, Figure, Frame, Ink, Pen, Said, Table } from '../figure/types';
@@ -94,7 +94,7 @@ export const driftPanel: PanelMaker = (): Panel => {
     if (!scene) return;
     const names = layout(pen.width), { tracks } = scene.solution, t = timeUnit(scene);
     const region = { left: 0, top: names.above, width: pen.width - names.right, height: pen.height - names.above };
-    const f = frame = axes(pen, ink, { min: tracks[0]?.times[0] ?? 0, max: endTime(scene), label: t ? '' : [{ text: 't', italic: true }], unit: t }, axis, { region, plain: true });
+    const f = frame = axes(pen, ink, { min: tracks[0]?.times[0] ?? 0, max: endTime(scene), label: t ? '' : nameSpans(timeName(scene.solution), 13), unit: t }, axis, { region, plain: true });
     const ends = tracks.map((track, k) => endIn(f, track.times, drawn[k]!)), level = f.y(first);
     if (!axis.log) pen.line([f.left, level, f.left + f.width, level], { colour: ink.exact, width: EXACT_WIDTH });
     pen.clip(f.left, f.top - 2, f.width + 2, f.height + 4, () => {

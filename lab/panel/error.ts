@@ -3,6 +3,7 @@
  * Invariant: nothing is shown as known that is not: below the round-off of the numbers, and below the truth's own error, the picture is shaded; an
  * error of zero stands at the foot of the picture, and is called zero where it is read out.
  */
+import { nameSpans, timeName } from '../figure/name';
 import type { Panel, PanelMaker, Scene } from '../scene';
 import { eventful, type ColumnKind } from '../protocol';
 import { axes } from '../figure/axes';
@@ -97,7 +98,7 @@ export const errorPanel: PanelMaker = (store): Panel => {
     if (!scene) return;
     const names = layout(pen.width), { tracks, truth } = scene.solution;
     const region = { left: 0, top: names.above, width: pen.width - names.right, height: pen.height - names.above }, t = timeUnit(scene);
-    frame = axes(pen, ink, { min: tracks[0]?.times[0] ?? 0, max: endTime(scene), label: t ? '' : [{ text: 't', italic: true }], unit: t }, { min: low, max: high, log: true, label: say.axis[of], unit: unit() }, { region, plain: true });
+    frame = axes(pen, ink, { min: tracks[0]?.times[0] ?? 0, max: endTime(scene), label: t ? '' : nameSpans(timeName(scene.solution), 13), unit: t }, { min: low, max: high, log: true, label: say.axis[of], unit: unit() }, { region, plain: true });
     const f = frame, foot = f.top + f.height;
     const shade = (upTo: number, words: string): void => {
       if (!(upTo > low)) return;

@@ -17,7 +17,7 @@ import { endSaid } from '../figure/ended';
 import { bold } from '../figure/ends';
 import { textWidth } from '../figure/shapes';
 import { begin } from '../figure/track';
-import type { Figure, Frame, Ink, Pen, Said, Span, Table } from '../figure/types';
+import type { Figure, Frame, Ink, Pen, Said, Table } from '../figure/types';
 import { words } from '../words';
 import { bandsOf, inPrint } from './band';
 import { movable } from './columns';
@@ -133,7 +133,7 @@ export const eventsPanel = (store: Store): Panel => {
   function table(): Table {
     if (!scene) return { head: [], rows: [] };
     const { columns, tracks } = scene.solution, kept = columns.map((_, c) => c).filter((c) => c > 0 && !columns[c]!.startsWith('exact '));
-    const head = ['method', 'event', 't', 'count', 'touched', ...kept.map((c) => columns[c]!), ...kept.map((c) => `${columns[c]}.after`)];
+    const head = ['method', 'event', columns[0]!, 'count', 'touched', ...kept.map((c) => columns[c]!), ...kept.map((c) => `${columns[c]}.after`)];
     const rows = tracks.flatMap(({ method, events }) => (events ? [...events.times.keys()].map((i) => [method, events.names[i]!, events.times[i]!, events.counts[i]!, events.touched[i]!, ...kept.map((c) => events.before[c]![i]!), ...kept.map((c) => events.after[c]![i]!)]) : []));
     return { head, rows };
   }
@@ -146,9 +146,9 @@ export const eventsPanel = (store: Store): Panel => {
     const now = scene, { columns } = now.solution, bars = errors.of(now.solution.tracks[which]!.method), at = movable(now).filter((name) => columns.includes(name)).map((name) => columns.indexOf(name));
     // What the events change comes first, where the digits of the table show it.
     const jumps = (c: number): boolean => events.before[c]!.some((value, i) => Math.abs(value - events.after[c]![i]!) > 10 ** -DIGITS * Math.abs(value)), changed = at.filter(jumps).slice(0, NUMBERS), others = at.filter((c) => !jumps(c)).slice(0, NUMBERS - changed.length);
-    const count = events.times.length, any = events.touched.some((t) => t !== 0), time: Span = { text: 't', italic: true };
+    const count = events.times.length, any = events.touched.some((t) => t !== 0), time = nameSpans(columns[0]!, 13);
     const column = (said: Said, kind?: string): HTMLElement => element('th', { scope: 'col', class: kind }, ...saidNodes(said)), names = (list: readonly number[], kind?: string): HTMLElement[] => list.map((c) => column(nameSpans(columns[c]!, 13), kind));
-    const head = [column(say.head.event), column([time]), ...names(changed, 'words'), ...(bars ? [column([time, { text: say.head.full }])] : []), column(say.head.count), ...(any ? [column(say.head.touched)] : []), ...names(others)];
+    const head = [column(say.head.event), column(time), ...names(changed, 'words'), ...(bars ? [column([...time, { text: say.head.full }])] : []), column(say.head.count), ...(any ? [column(say.head.touched)] : []), ...names(others)];
     const row = (i: number): HTMLElement => {
       const time = events.times[i]!, full = bars?.events[i], text = full ? inPrint(full) : minus(String(time)), name = nameText(events.names[i]!);
       const go = button(shortTime(events.times, i, full), () => holder.dispatchEvent(new CustomEvent<number>(SEEK, { detail: time, bubbles: true })), { class: 'text-button', title: text, 'aria-label': say.seek(name, text) });

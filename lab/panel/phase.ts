@@ -11,7 +11,7 @@ import { figure } from '../figure/figure';
 import { bodiesOf, firstMoving } from '../distance';
 import { recoloured } from '../figure/ink';
 import { drawMarks, marksOf } from '../figure/marks';
-import { nameSpans, nameText } from '../figure/name';
+import { nameSpans, nameText, timeName } from '../figure/name';
 import { brief, readable } from '../figure/number';
 import { EXACT_WIDTH, drawPath, begin, valueAt, viewOf, type View } from '../figure/track';
 import { thinPath } from '../figure/thin';
@@ -83,7 +83,7 @@ export const phasePanel = (store: Store, stage: () => Sees): Panel => {
         ends.push(endOf(look, end, heights(line.times, px, py)));
       });
       const [ax, ay] = pair.map(at) as [number, number];
-      tracks.forEach(({ events }, k) => { if (events) drawMarks(pen, ink, marksOf(events, (of, row) => [f.x(pair[0] === 't' ? events.times[row]! : of[ax]?.[row] ?? NaN), f.y(pair[1] === 't' ? events.times[row]! : of[ay]?.[row] ?? NaN)], concerning(scene!, events, pair)), scene!.looks[k]!); });
+      tracks.forEach(({ events }, k) => { if (events) drawMarks(pen, ink, marksOf(events, (of, row) => [f.x(pair[0] === timeName(scene!.solution) ? events.times[row]! : of[ax]?.[row] ?? NaN), f.y(pair[1] === timeName(scene!.solution) ? events.times[row]! : of[ay]?.[row] ?? NaN)], concerning(scene!, events, pair)), scene!.looks[k]!); });
       pen.mark('ring', f.x(track(0, pair[0])[0] ?? NaN), f.y(track(0, pair[1])[0] ?? NaN), 6, ink.text);
     });
     drawEnds(pen, ink, f, names, ends);
@@ -142,7 +142,7 @@ export const phasePanel = (store: Store, stage: () => Sees): Panel => {
     scene = next;
     nameExports(next.state.preset);
     frame = null;
-    const names = ['t', ...movable(next)].filter((n) => next.solution.columns.includes(n)), key = names.join('\n');
+    const time = timeName(next.solution), names = [time, ...movable(next)].filter((n) => next.solution.columns.includes(n)), key = names.join('\n');
     // The first position whose velocity changes: a ball's flight forward would be a straight line.
     const moves = (name: string): boolean => {
       const column = next.solution.tracks[0]?.columns[next.solution.columns.indexOf(velocityOf(next, name) ?? '')];
@@ -153,7 +153,7 @@ export const phasePanel = (store: Store, stage: () => Sees): Panel => {
     const first = of ? firstMoving(bodies.map((names) => names.map((n) => of.columns[next.solution.columns.indexOf(n)]))) : 0;
     // One that nearly rests, as the Sun does, is not the motion.
     const all = bodies.slice(first).flat().slice(0, 16), [one, two] = states(next), x = all.find(moves) ?? all[0] ?? one ?? names[0] ?? '';
-    const v = velocityOf(next, x) ?? (two && two !== x ? two : names.find((n) => n !== x && n !== 't') ?? x);
+    const v = velocityOf(next, x) ?? (two && two !== x ? two : names.find((n) => n !== x && n !== time) ?? x);
     pair = wanted && wanted.every((n) => names.includes(n)) ? [wanted[0], wanted[1]] : [x, v];
     if (key !== offered) {
       offered = key;

@@ -12,7 +12,7 @@ import { nameExports } from '../figure/export';
 import { figure } from '../figure/figure';
 import { recoloured } from '../figure/ink';
 import { drawMarks, marksOf } from '../figure/marks';
-import { nameSpans, nameText } from '../figure/name';
+import { nameSpans, nameText, timeName } from '../figure/name';
 import { brief, readable, shortened } from '../figure/number';
 import { EXACT_WIDTH, drawTrack, begin, valueAt, viewOf, type View } from '../figure/track';
 import { thin } from '../figure/thin';
@@ -90,7 +90,7 @@ export const timePanel = (store: Store, stage: () => Sees): Panel => {
     // Strips line up: the widest label of any decides.
     let margin = 0;
     const put = (quiet: boolean): void => {
-      frames = chosen.map((name, i) => axes(quiet ? mute(pen) : pen, ink, { min: span[0], max: span[1], label: unit ? '' : [{ text: 't', italic: true }], unit },
+      frames = chosen.map((name, i) => axes(quiet ? mute(pen) : pen, ink, { min: span[0], max: span[1], label: unit ? '' : nameSpans(timeName(scene!.solution), 13), unit },
         { min: views[i]!.bounds[0], max: views[i]!.bounds[1], label: nameSpans(name, 13), unit: unitOf(scene!, name) },
         { region: { left: 0, top: names.above + i * each, width: pen.width - names.right, height: each + (i === last ? 30 : 0) }, bare: i !== last, margin, plain: true }));
     };

@@ -4,7 +4,7 @@
  */
 import { exampleOf, stagingOf } from '../data';
 import { bodiesOf } from '../distance';
-import { nameText } from '../figure/name';
+import { nameText, timeName } from '../figure/name';
 import { brief } from '../figure/number';
 import type { Column } from '../protocol';
 import type { Scene } from '../scene';
@@ -16,7 +16,7 @@ const unitsOf = (scene: Scene) => stagingOf(exampleOf(scene.state)).units;
 export const timeUnit = (scene: Scene): string => unitsOf(scene)?.t ?? '';
 /** The unit of a column. */
 export function unitOf(scene: Scene, name: string): string {
-  const units = unitsOf(scene), kind: Column['kind'] | undefined = name === 't' ? 'time' : columnOf(scene, name)?.kind;
+  const units = unitsOf(scene), kind: Column['kind'] | undefined = columnOf(scene, name)?.kind;
   return !units ? '' : kind === 'time' ? units.t : kind === 'position' ? units.x : kind === 'velocity' ? units.v : '';
 }
 /** A column by its name; of a body that the example names, by that: r[2]'.x is "Jupiter x′". */
@@ -32,7 +32,7 @@ export function bodyCalled(scene: Scene, names: readonly string[], body: string)
 /** A number in a sentence, to three digits, with its unit. */
 export const amount = (value: number, unit = '', digits = 3): string => `${brief(value, digits)}${unit && `\u2009${unit}`}`;
 /** "20 s"; without a unit "t = 20". */
-export const moment = (scene: Scene, t: number): string => (timeUnit(scene) ? amount(t, timeUnit(scene), 4) : `t = ${brief(t, 4)}`);
+export const moment = (scene: Scene, t: number): string => (timeUnit(scene) ? amount(t, timeUnit(scene), 4) : `${nameText(timeName(scene.solution))} = ${brief(t, 4)}`);
 
 /** Where the run would end: the last time of whoever came furthest. */
 export function endTime(scene: Scene): number {

@@ -2,6 +2,7 @@
  *
  * Invariant: discs and lines share the axis across; a disc is as wide there as a ball is.
  */
+import { timeName } from '../figure/name';
 import { drawMarks, marksOf, partOf } from '../figure/marks';
 import type { Ink, Pen } from '../figure/types';
 import { greenName, type Motion, type Rows } from './motion';
@@ -22,7 +23,7 @@ export function ballsPicture({ scene, subject, place, bounds, before }: Setting,
   const given = { left: frame.left + (names ? 52 : 18), top: frame.top + 24, right: names ? place.width - 210 * place.scale : frame.right + 40, bottom: frame.bottom };
   const unit = Math.min(UNIT, (given.right - given.left) / (high - low), 0.3 * (given.bottom - given.top) / size), room = unit * size + GAP * place.scale;
   const box = wideEnough({ ...given, right: given.left + unit * (high - low), bottom: given.bottom - room }, place);
-  const plot = flatPlot({ bounds: [[low, high], [Math.min(from, to), Math.max(from, to) + 0.06 * Math.abs(to - from)]], box, equal: false, style: 'plane', axes: [{ name: subject.axes[1] ?? '', unit: '' }, { name: 't', unit: '' }], solution: scene.solution, letters: place.scale });
+  const plot = flatPlot({ bounds: [[low, high], [Math.min(from, to), Math.max(from, to) + 0.06 * Math.abs(to - from)]], box, equal: false, style: 'plane', axes: [{ name: subject.axes[1] ?? '', unit: '' }, { name: timeName(scene.solution), unit: '' }], solution: scene.solution, letters: place.scale });
   const along = plot.along!, up = plot.up!, radius = Math.abs(along(size) - along(0)) / 2, middle = plot.box.bottom + GAP * place.scale + radius;
   const line = (of: Rows, cell: number, upTo: number): Float64Array => {
     const way = Math.sign(to - from) || 1, rows = [...of.times.keys()].filter((i) => (of.times[i]! - upTo) * way <= 0), at = placeAt(of.times, upTo);

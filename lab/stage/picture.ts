@@ -74,7 +74,7 @@ function plotsOf({ scene, subject, staging, place, bounds, camera }: Setting, si
   if (subject.kind === 'time') {
     const small = !place.names, left = frame.left + (side && staging.decor === 'spring' ? 99 : small ? 18 : 52), top = frame.top + 24;
     const whole: Box = { left, top, right: small ? frame.right : place.width - 240 * letters, bottom: frame.bottom };
-    const axes = [axisOf('t', units?.t), axisOf(subject.axes[1] ?? '', '')] as const;
+    const axes = [axisOf(subject.axes[0] ?? '', units?.t), axisOf(subject.axes[1] ?? '', '')] as const;
     if (!side) return [flatPlot({ ...common, bounds, box: wideEnough(whole, place), equal: false, style: 'time', axes })];
     const right = place.width - 37 * letters, width = Math.min(0.4 * (right - left), 1.05 * (frame.bottom - top), side === 'rod' ? 220 * letters : Infinity), from = right - width;
     const main = flatPlot({ ...common, bounds, box: { ...whole, right: from - (side === 'rod' ? 150 : 116) * letters }, equal: false, style: 'time', axes });

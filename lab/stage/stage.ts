@@ -3,6 +3,7 @@
  * Invariant: the frame keeps still while sliders move; it moves once, afterwards, where the exact motion has left it or become small in it. Methods never
  * move it. What keeps still is drawn once a scene, what moves once a frame; nothing is drawn while it cannot be seen.
  */
+import { timeName } from '../figure/name';
 import { exampleOf, stagingOf } from '../data';
 import { firstMoving } from '../distance';
 import { button, el, milestone, say } from '../dom';
@@ -371,7 +372,7 @@ export function stage(store: Store, room: { column(): number }): Stage {
   }
   function table(): Table {
     if (!scene || !subject) return { head: [], rows: [] };
-    const { solution, looks } = scene, columns = subject.bodies.flatMap((b) => b.columns), head = [words.stage.table.motion, 't', ...columns.map((c) => solution.columns[c] ?? '')];
+    const { solution, looks } = scene, columns = subject.bodies.flatMap((b) => b.columns), head = [words.stage.table.motion, timeName(solution), ...columns.map((c) => solution.columns[c] ?? '')];
     const rows: (string | number)[][] = [];
     const add = (name: string, of: { readonly times: Float64Array; readonly columns: readonly Float64Array[] }): void => of.times.forEach((t, i) => rows.push([name, t, ...columns.map((c) => of.columns[c]?.[i] ?? NaN)]));
     solution.tracks.forEach((track, k) => add(looks[k]?.label ?? track.method, track));

@@ -4,7 +4,7 @@
  * where nothing else can be said, each number is a curve in time.
  */
 import type { Column, Description, Solution, Variable } from '../protocol';
-import { nameText } from '../figure/name';
+import { nameText, timeName } from '../figure/name';
 import { words } from '../words';
 
 /** One point that moves: its coordinates, as places in solution.columns. */
@@ -122,16 +122,16 @@ export function subjects(description: Description, solution: Solution): Subject[
       }
     }
   }
-  out.push(...inTime(positions));
+  out.push(...inTime(positions, solution));
   if (out.length > 0) return out;
   // Of first order: letters of places are a path first, other numbers are curves in time first.
-  const first = places(description, solution, 'first-order'), paths = pathsOf(first), times = inTime(first);
+  const first = places(description, solution, 'first-order'), paths = pathsOf(first), times = inTime(first, solution);
   if (first.length > 0) return first.every(({ column }) => /^[xyz]$|\.[xyz]$/.test(column.name)) ? [...paths, ...times] : [...times, ...paths];
-  return inTime(solution.columns.flatMap((name, at) => { const column = description.columns.find((c) => c.name === name && c.kind !== 'time'); return column ? [{ column, at }] : []; }));
+  return inTime(solution.columns.flatMap((name, at) => { const column = description.columns.find((c) => c.name === name && c.kind !== 'time'); return column ? [{ column, at }] : []; }), solution);
 }
 
-const inTime = (of: readonly Place[]): Subject[] => of.slice(0, CHOICES).map(({ column: { name }, at }) =>
-  ({ id: `time-${name}`, kind: 'time', label: words.stage.views.time(partOf(name)), axes: ['t', name], bodies: [{ label: name, columns: [at] }] }));
+const inTime = (of: readonly Place[], solution: Solution): Subject[] => of.slice(0, CHOICES).map(({ column: { name }, at }) =>
+  ({ id: `time-${name}`, kind: 'time', label: words.stage.views.time(partOf(name)), axes: [timeName(solution), name], bodies: [{ label: name, columns: [at] }] }));
 
 /** Some first-order variables against one another: all three in space, each pair in its plane. */
 function pathsOf(of: readonly Place[]): Subject[] {

@@ -230,12 +230,12 @@ node graph_choices(graph *, node);
 void graph_loads(graph *, node, space,
                  void (*visit)(void *ctx, const reference *, const range *sums, int first_level, int inside),
                  void *ctx);
-/* Writes infix text in the language. `name` writes the name of a PARAM slot, a LOAD reference or an INDEX (level <
- * MAX_LEVELS: a loop variable; MAX_LEVELS: the int slot a). It may leave an INDEX empty: i, j, k … and n0, n1 … then
- * stand in. Returns the length that it wanted, like snprintf, at most GRAPH_TEXT_MAX: a longer text ends there in
- * "...". */
 /* Notes that a call in the text has made a node; the texts must outlive the graph. */
 void graph_name(graph *, node, node argument, const char *before, const char *after, int component);
+/* Writes infix text in the language. `name` writes the name of a PARAM slot, a LOAD reference, the TIME or an INDEX
+ * (level < MAX_LEVELS: a loop variable; MAX_LEVELS: the int slot a). It may leave the last two empty: t, i, j, k … and
+ * n0, n1 … then stand in. Returns the length that it wanted, like snprintf, at most GRAPH_TEXT_MAX: a longer text ends
+ * there in "...". */
 enum { GRAPH_TEXT_MAX = 1 << 20 };
 typedef void (*graph_namer)(void *ctx, const graph_node *, char *out, size_t size);
 size_t graph_print(const graph *, node, graph_namer, void *ctx, char *out, size_t size);

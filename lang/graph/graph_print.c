@@ -247,7 +247,7 @@ static void leaf(printer *p, const graph_node *n)
 {
     switch (n->op) {
     case OP_CONST: number(p, n->value); return;
-    case OP_TIME: text(p, "t"); break;
+    case OP_TIME: ask(p, n, "t"); break;
     case OP_INDEX:
         level_name(p, n->level);
         p->tail = TAIL_STATE;

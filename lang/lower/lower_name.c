@@ -324,11 +324,12 @@ value lower_name(lowering *l, const tree *t)
             COMPLAIN(l, &t->at, "%s is an index: it takes no primes and no index", t->name);
         return scalar(l, index->number);
     }
-    if (!strcmp(t->name, "t") || !strcmp(t->name, "pi")) {
+    const bool time = !strcmp(t->name, l->model->time);
+    if (time || !strcmp(t->name, "pi")) {
         if (t->primes || t->index_count) COMPLAIN(l, &t->at, "%s takes no primes and no index", t->name);
-        if (t->name[0] == 'p') return lower_pi(l);
+        if (!time) return lower_pi(l);
         if (l->place == PLACE_CONSTANT) {
-            COMPLAIN(l, &t->at, "%s is constant and cannot depend on the time t", l->what);
+            COMPLAIN(l, &t->at, "%s is constant and cannot depend on the time %s", l->what, t->name);
             return wrong(l);
         }
         return scalar(l, graph_time(l->model->graph));

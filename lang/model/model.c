@@ -143,6 +143,8 @@ static void name_leaf(void *model_, const graph_node *n, char *out, size_t size)
         snprintf(out, size, "%lld", (long long)m->ints[n->a]);
     else if (n->op == OP_TABLE)
         name_table(m, n->a, out, size);
+    else if (n->op == OP_TIME)
+        snprintf(out, size, "%s", m->time);
     else if (n->op == OP_LOAD)
         model_reference_name(m, &m->graph->references[n->a], out, size);
 }

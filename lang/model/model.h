@@ -272,6 +272,7 @@ typedef struct model {
     bool start_known, draft; /* draft: as in motus_text_def */
     int64_t every_steps;
     const char *method;
+    const char *time; /* the name of the time: t, unless the model says another one */
 } model;
 
 /* Writes the name of x[k] (in_v: of v[k]): "r[3].y", "x'". */

@@ -114,7 +114,7 @@ static bool name_moves(model *m, const tree *t, const reader *by, bool *yes)
 {
     if (is_argument(by, t->name)) return true;
     symbol s = symbols_find(m, t->name);
-    if (!strcmp(t->name, "t") || s.state) *yes = true;
+    if (!strcmp(t->name, m->time) || s.state) *yes = true;
     return !s.definition || definition_moves(m, s.definition, t->at, by, yes);
 }
 

@@ -257,6 +257,54 @@ static bool add_line(model *m, uint32_t text, bool event)
     return false;
 }
 
+static bool defines(const statement *s, const char *name)
+{
+    return s->kind <= STATEMENT_INVARIANT && !strcmp(s->name, name);
+}
+
+/* Finds a name for the time of a model with an equation for t; NULL: all of them are defined. */
+static const char *other_time(const model *m)
+{
+    static const char *const names[] = {"tau", "s", "time"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        bool taken = false;
+        for (uint32_t k = 0; k < m->statements.count; k++) taken |= defines(&m->statements.item[k], names[i]);
+        if (!taken) return names[i];
+    }
+    return NULL;
+}
+
+/* Names the time: as the model does, or t; if t has an equation, it is a coordinate, and the time is tau. */
+static bool name_time(model *m)
+{
+    source *s = &m->source;
+    const statement *named = NULL, *moves = NULL;
+    for (uint32_t i = 0; i < m->statements.count; i++) {
+        const statement *one = &m->statements.item[i];
+        if (one->kind == STATEMENT_EQUATION && !moves && !strcmp(one->name, "t")) moves = one;
+        if (one->kind != STATEMENT_TIME) continue;
+        if (named)
+            source_complain(s, MOTUS_NAME, &one->at, "the time has two names: the first one in line %d",
+                            source_line(s, &named->at));
+        named = one;
+    }
+    m->time = named ? named->name : moves ? other_time(m) : "t";
+    if (!m->time) {
+        source_complain(s, MOTUS_NAME, &moves->name_at, "t has an equation of motion, so the time needs another name");
+        source_hint(s, "write it: time lambda");
+        m->time = "t";
+    }
+    for (uint32_t i = 0; i < m->statements.count; i++) {
+        const statement *one = &m->statements.item[i];
+        if (!defines(one, m->time)) continue;
+        source_complain(s, MOTUS_SYNTAX, &one->name_at, "%s is the time and cannot be defined", m->time);
+        const bool start = one->kind == STATEMENT_DEFINITION && one->value->kind == TREE_NUMBER;
+        if (start) source_hint(s, "write `from %g` for the start of the run, or take another name", one->value->number);
+        source_hint(s, "take another name, or name the time: time %s", named ? "lambda" : "tau");
+    }
+    return !source_failed(s);
+}
+
 static bool derives(const tree *t)
 {
     for (; t; t = t->count ? t->item[0] : NULL) {
@@ -294,6 +342,7 @@ bool collect_all(model *m, const motus_text_def *def)
         if (!add_line(m, (uint32_t)(def->set_count + def->when_count) + i + 1, false)) return false;
     for (uint32_t i = 0; i < def->set_count; i++)
         if (!replace(m, i + 1)) return false;
+    if (!name_time(m)) return false;
     uint32_t n = m->statements.count;
     uint32_t brackets = 0, definitions = 0;
     for (uint32_t i = 0; i < n; i++) {

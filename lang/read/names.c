@@ -37,7 +37,7 @@ static bool in_scope(const scope *s, const char *name)
 static bool known(const finding *f, const scope *s, const char *name)
 {
     symbol found = symbols_find(f->model, name);
-    return found.state || found.definition || in_scope(s, name) || !strcmp(name, "t") || !strcmp(name, "pi");
+    return found.state || found.definition || in_scope(s, name) || !strcmp(name, f->model->time) || !strcmp(name, "pi");
 }
 
 /* Returns whether a bracket fits its name: x(0) of a state, V(a, b) of a function with as many arguments. */
@@ -154,6 +154,7 @@ static bool complain_name(finding *f, const tree *t)
         return false;
     }
     source_complain(s, MOTUS_NAME, &t->at, "%s is not defined", t->name);
+    if (!strcmp(t->name, "t")) source_hint(s, "the time is named %s in this model", f->model->time);
     for (uint32_t i = 0; i < f->model->rule_count; i++)
         if (!strcmp(f->model->rules[i].name, t->name)) {
             source_hint(s, "it is an event: count(%s), time(%s, last), at(%s, last, x)", t->name, t->name, t->name);
@@ -236,7 +237,7 @@ static bool complain_call(finding *f, const tree *t)
     const char *name = t->item[0]->name, *here = written_here(name);
     const symbol found = symbols_find(f->model, name);
     if (kept_call(f->model, t)) return complain_kept(f, t);
-    bool local = false, defined = found.definition || !strcmp(name, "t") || !strcmp(name, "pi");
+    bool local = false, defined = found.definition || !strcmp(name, f->model->time) || !strcmp(name, "pi");
     for (uint32_t i = 0; i < f->local_count; i++) local |= !strcmp(f->local[i], name);
     if (!local && (found.state || found.function)) return complain_arguments(f, t, found);
     if ((defined || local) && t->count == 2) {
@@ -264,7 +265,7 @@ static bool check_left(model *m, const statement *s)
         const tree *t = s->index[d];
         if (t->kind != TREE_NAME || t->index_count || t->primes) continue;
         symbol found = symbols_find(m, t->name);
-        bool runs = found.definition || found.state || !strcmp(t->name, "t") || !strcmp(t->name, "pi");
+        bool runs = found.definition || found.state || !strcmp(t->name, m->time) || !strcmp(t->name, "pi");
         for (uint32_t k = 0; k < s->loop_count; k++) runs |= !strcmp(s->loops[k].name, t->name);
         if (runs) continue;
         source_complain(&m->source, MOTUS_NAME, &t->at, "the index %s has no range", t->name);

@@ -92,6 +92,7 @@ motus_status read_model(arena *a, const motus_text_def *def, const read_how *how
     if (!m) return fail(err, MOTUS_MEMORY, "no memory for the model");
     m->arena = a;
     m->lower = lower_tree;
+    m->time = "t";
     m->draft = def->draft > 0;
     const size_t sets = def->set_count, whens = sets + def->when_count, texts = 1 + whens + def->define_count;
     m->source = (source){.arena = a,

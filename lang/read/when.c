@@ -225,8 +225,8 @@ static bool may_assign(model *m, lowering *l, const tree *t)
         HINT(m, "an event assigns states and parameters: x = …, x' = …, r' = (…, …), n = …");
         return false;
     }
-    if (!strcmp(name->name, "t")) {
-        COMPLAIN(m, &t->at, "t is the time and cannot be assigned");
+    if (!strcmp(name->name, m->time)) {
+        COMPLAIN(m, &t->at, "%s is the time and cannot be assigned", m->time);
         return false;
     }
     const symbol s = symbols_find(m, name->name);

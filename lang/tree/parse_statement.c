@@ -146,12 +146,10 @@ static void parse_left(parser *p, statement *s)
     tree name = {.at = p->token.at};
     s->name_at = p->token.at;
     s->name = copy_name(p, &p->token.at);
-    if (words_reserved(s->name) || words_function(s->name) >= 0 || !strcmp(s->name, "sum")) {
+    const bool reserved = words_reserved(s->name) && strcmp(s->name, "t"); /* collect.c knows whether t is the time */
+    if (reserved || words_function(s->name) >= 0) {
         if (words_function(s->name) >= 0 && strcmp(s->name, "if") && parse_sum_left(p, s)) return;
-        if (!strcmp(s->name, "t"))
-            COMPLAIN(p, &s->name_at, "t is the time and cannot be defined");
-        else
-            COMPLAIN(p, &s->name_at, "%s is a word of the language and cannot be defined", s->name);
+        COMPLAIN(p, &s->name_at, "%s is a word of the language and cannot be defined", s->name);
         if (!strcmp(s->name, "if"))
             HINT(p, "for an event write when y < 0: y' = -y'; for a value with two cases if(y < 0, a, b)");
         HINT(p, "take another name");
@@ -215,6 +213,32 @@ static void parse_left(parser *p, statement *s)
     }
 }
 
+/* Returns whether a line names the time; `time` may be a name, too. */
+static bool at_time(const parser *p)
+{
+    if (!word(p, "time")) return false;
+    lexer ahead = p->lexer;
+    return lex_next(&ahead).kind == TOKEN_NAME && lex_next(&ahead).kind != TOKEN_PRIMES;
+}
+
+/* time = "time" NAME */
+static void parse_time(parser *p, statement *s)
+{
+    s->kind = STATEMENT_TIME;
+    advance(p);
+    s->name_at = p->token.at;
+    s->name = copy_name(p, &p->token.at);
+    const bool reserved = words_reserved(s->name) && strcmp(s->name, "t");
+    if (reserved || words_function(s->name) >= 0) {
+        COMPLAIN(p, &s->name_at, "%s is a word of the language and cannot name the time", s->name);
+        HINT(p, "take another name: time tau");
+        return;
+    }
+    advance(p);
+    s->at.to = p->last.at.to;
+    parse_end(p, source_line(p->source, &s->at));
+}
+
 static void parse_statement(parser *p, statement *s)
 {
     s->at = p->token.at;
@@ -236,6 +260,10 @@ static void parse_statement(parser *p, statement *s)
             parse_setting(p, s);
             return;
         }
+    if (at_time(p)) {
+        parse_time(p, s);
+        return;
+    }
     if (word(p, "method")) {
         s->kind = STATEMENT_METHOD;
         s->name = "method";

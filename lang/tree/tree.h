@@ -62,6 +62,7 @@ typedef enum statement_kind {
     STATEMENT_EXACT,
     STATEMENT_INVARIANT,
     STATEMENT_WHEN,
+    STATEMENT_TIME,   /* the name of the time */
     STATEMENT_METHOD, /* text */
     STATEMENT_STEP,
     STATEMENT_TOLERANCE,

@@ -73,10 +73,13 @@ static char *write_statement(typesetter *p, const statement *s)
                  .item = s->index,
                  .count = s->index_count,
                  .index_count = s->index_count};
-    tree time = {.kind = TREE_NAME, .name = "t"};
+    tree time = {.kind = TREE_NAME, .name = p->model->time};
     tree exact = {.kind = TREE_APPLY, .item = (tree *[]){&name, &time}, .count = 2};
     typeset_put(p, "<math xmlns=\"http://www.w3.org/1998/Math/MathML\" display=\"block\">");
-    if (s->kind >= STATEMENT_METHOD) {
+    if (s->kind == STATEMENT_TIME) {
+        typeset_put(p, "<mtext>time&#xA0;</mtext>");
+        typeset_then(p, &name, 0);
+    } else if (s->kind >= STATEMENT_METHOD) {
         setting(p, s);
     } else if (s->kind == STATEMENT_WHEN) {
         typeset_when(p, s);
