@@ -67,6 +67,7 @@ if(MOTUS_TESTS)
   target_sources(draw_test PRIVATE cli/model/draw.c)
   target_sources(range_test PRIVATE cli/model/range.c)
   target_sources(bar_test PRIVATE tell/bar.c)
+  target_sources(units_test PRIVATE cli/model/units.c cli/model/comments.c)
 endif()
 
 # The elementary functions against MPFR, built twice: for the base instruction set and for this machine's. -Wno-psabi: vectors are not

@@ -84,3 +84,15 @@ char *comments_find(const char *model, const char *column)
     }
     return found;
 }
+
+char *comments_setting(const char *model, const char *word)
+{
+    const size_t length = strlen(word);
+    for (const char *line = model; *line; line += strcspn(line, "\n"), line += *line == '\n') {
+        const char *at = line + strspn(line, " \t");
+        const size_t all = strcspn(at, "\n"), code = strcspn(at, "#\n");
+        if (strncmp(at, word, length) == 0 && strchr(" \t", at[length]) && code < all)
+            return copy(at + code, all - code);
+    }
+    return NULL;
+}

@@ -56,5 +56,16 @@ motus_status components_set(motus_system *, const options_list *set, motus_error
  * # N/m" (comments.c). For a state, it is the line of its initial value. The column is named as in archives: "k",
  * "x'", "r.x(0)", "max(energy)", "x[3].error". The caller frees the comment. NULL: there is none, or no memory. */
 char *comments_find(const char *model, const char *column);
+/* Returns the comment on a line that begins with a word, "until" or "step"; as above. */
+char *comments_setting(const char *model, const char *word);
+
+/* units.c: units in comments. */
+enum { UNIT_MAX = 48 };
+/* Reads the unit that a comment begins with, or that ends it, "in kg". *alone: no words follow it. */
+bool units_read(const char *comment, char out[UNIT_MAX], bool *alone);
+/* Writes the unit of a column or parameter of the model, of the `time` that of its step or end; "": it has none. */
+void units_of(const char *model, const char *name, bool time, char out[UNIT_MAX]);
+/* Writes the name with its unit, "x (m)". */
+void units_label(const char *model, const char *name, bool time, char *out, size_t size);
 
 #endif

@@ -15,6 +15,13 @@
 
 enum {
     FINE_SAMPLES = 200000,
+    SMOOTH = 4000, /* samples of a run, at least, so that few steps do not look like a polygon */
+    DOTS = 150,    /* steps that are seen as dots */
+    STEPS = 8000,  /* steps of which the changes of invariants are drawn, at most: between steps they tell of the dense
+                      output, not of the method */
+    DOTTED = 3,    /* curves of a panel that have dots, at most */
+    MARKS = 200,   /* events that are seen as marks */
+    DRIFTS = 4,    /* invariants */
     COARSE_SAMPLES = 400,
     BAR_SAMPLES = 500,
     MOST_CURVES = 8, /* in a panel; there are as many styles */
@@ -56,6 +63,24 @@ static size_t spread(size_t k, size_t shown, size_t cells)
     return shown >= cells ? k : shown < 2 ? 0 : (size_t)((double)k * (double)(cells - 1) / (double)(shown - 1) + 0.5);
 }
 
+void figure_label(const load *m, size_t column, char out[PLOT_LABEL])
+{
+    motus_column c = motus_default_column();
+    const bool found = motus_column_at(m->system, column, &c) == MOTUS_OK;
+    units_label(m->text, found ? c.name : "", column == 0, out, PLOT_LABEL);
+}
+
+bool figure_agree(const load *m, size_t a, size_t b)
+{
+    motus_column c[2] = {motus_default_column(), motus_default_column()};
+    char unit[2][UNIT_MAX];
+    if (a == 0 || b == 0 || motus_column_at(m->system, a, &c[0]) || motus_column_at(m->system, b, &c[1])) return false;
+    for (int k = 0; k < 2; k++) units_of(m->text, c[k].name, false, unit[k]);
+    if (unit[0][0] || unit[1][0]) return strcmp(unit[0], unit[1]) == 0;
+    if (c[0].kind != c[1].kind || c[0].is_velocity != c[1].is_velocity) return false;
+    return c[0].kind == MOTUS_COLUMN_POSITION || c[0].kind == MOTUS_COLUMN_VELOCITY || c[0].variable == c[1].variable;
+}
+
 static plot_panel *add_panel(figure *f, const char *title, const char *x, const char *y)
 {
     return plot_panel_add(&f->plot, title, x, y);
@@ -80,13 +105,29 @@ static bool add_against_t(figure *f, plot_panel *p, size_t column, plot_role rol
 {
     char label[PLOT_LABEL];
     column_name(f, column, label, sizeof label);
-    double *y = record_add(&f->fine, column);
-    plot_curve *c = y ? plot_curve_add(p, label, f->t, y, 0, 1) : NULL;
+    double *y = record_add(change ? &f->steps : &f->fine, column);
+    plot_curve *c = y ? plot_curve_add(p, label, change ? f->steps_t : f->t, y, 0, 1) : NULL;
     if (!c) return false;
     c->role = role;
     c->timelike = true;
     c->change = change;
     return role == PLOT_EXACT || change || !f->bars.with_errors || add_band(f, c, column);
+}
+
+/* Adds the steps of the method as dots on the line before; y 0: against t. */
+static bool add_dots(figure *f, plot_panel *p, size_t axes, const size_t columns[3])
+{
+    if (!f->dotted) return true;
+    const double *at[3] = {NULL, NULL, NULL};
+    for (size_t a = 0; a < axes; a++) {
+        at[a] = columns[a] == 0 ? f->steps_t : record_add(&f->steps, columns[a]);
+        if (!at[a]) return false;
+    }
+    plot_curve *c = plot_curve_add(p, "steps", at[0], at[1], 0, 1);
+    if (!c) return false;
+    c->z = at[2];
+    c->role = PLOT_STEPS;
+    return true;
 }
 
 /* Adds curves of the numbers of a variable against t, at most MOST_CURVES. */
@@ -97,6 +138,8 @@ static bool add_numbers(figure *f, plot_panel *p, const figure_place *place, con
     for (size_t k = 0; k < shown; k++) {
         size_t n = spread(k, shown, numbers);
         if (!add_against_t(f, p, place->first + n, PLOT_LINE, false) ||
+            (p->curve_count <= 2 * DOTTED && shown <= DOTTED &&
+             !add_dots(f, p, 2, (size_t[]){0, place->first + n, 0})) ||
             (exact && !add_against_t(f, p, exact->first + n, PLOT_EXACT, false)))
             return false;
     }
@@ -135,7 +178,10 @@ static bool add_paths(figure *f, plot_panel *p, const motus_variable *v, const f
             if (dot) *dot = 0;
         }
         snprintf(exact_label, sizeof exact_label, "exact %s", label);
+        const size_t columns[] = {column_at(place, cell, 0), column_at(place, cell, 1),
+                                  column_at(place, cell, axes - 1)};
         if (!add_path(f, p, place, cell, axes, PLOT_LINE, label) ||
+            (shown <= DOTTED && !add_dots(f, p, axes, columns)) ||
             (exact && !add_path(f, p, exact, cell, axes, PLOT_EXACT, exact_label)))
             return false;
     }
@@ -149,7 +195,9 @@ static bool add_heat(figure *f, const motus_variable *v, const figure_place *pla
     size_t shown = place->cells < HEAT_CELLS ? place->cells : HEAT_CELLS;
     snprintf(title, sizeof title, "%s, every cell against time", v->name);
     size_t panel = f->plot.count;
-    if (!add_panel(f, title, f->model->time, v->dimensions == 1 ? "index" : "cell")) return false;
+    char time[PLOT_LABEL];
+    figure_label(f->model, 0, time);
+    if (!add_panel(f, title, time, v->dimensions == 1 ? "index" : "cell")) return false;
     double span = place->cells > 1 && shown > 1 ? (double)(place->cells - 1) / (double)(shown - 1) : 1;
     f->heats[f->heat_count++] = (figure_heat){.panel = panel,
                                               .first = f->coarse.count,
@@ -199,6 +247,42 @@ typedef struct shared {
     size_t scalars, plane;
 } shared;
 
+/* Adds a panel of numbers against t. */
+static plot_panel *add_time_panel(figure *f, const char *title, size_t column, const char *name)
+{
+    char x[PLOT_LABEL], y[PLOT_LABEL];
+    figure_label(f->model, 0, x);
+    units_label(f->model->text, name ? name : "", false, y, sizeof y);
+    if (!name) figure_label(f->model, column, y);
+    return add_panel(f, title, x, y);
+}
+
+/* Adds a panel of paths in the plane or in space. */
+static plot_panel *add_path_panel(figure *f, const motus_variable *v)
+{
+    char label[3][PLOT_LABEL], name[MOTUS_NAME_MAX + 8];
+    for (int a = 0; a < 3; a++) {
+        snprintf(name, sizeof name, "%s.%c", v->name, "xyz"[a]);
+        units_label(f->model->text, name, false, label[a], sizeof label[a]);
+    }
+    plot_panel *p = add_panel(f, "motion", label[0], label[1]);
+    if (!p) return NULL;
+    if (v->components == 3) snprintf(p->z_label, sizeof p->z_label, "%s", label[2]);
+    p->equal = p->path = true;
+    return p;
+}
+
+/* The label of an axis with the numbers of several variables: their unit, if they have one. */
+static void share_label(const figure *f, plot_panel *p, const char *name)
+{
+    char unit[UNIT_MAX], whole[UNIT_MAX + 2];
+    units_of(f->model->text, name, false, unit);
+    snprintf(whole, sizeof whole, "(%s)", unit);
+    const size_t length = strlen(p->y_label), own = strlen(whole);
+    const bool same = unit[0] && length >= own && strcmp(p->y_label + length - own, whole) == 0;
+    snprintf(p->y_label, sizeof p->y_label, "%s", same ? whole : "");
+}
+
 static bool add_variable(figure *f, const motus_variable *v, shared *s)
 {
     figure_place place, exact_place;
@@ -208,13 +292,9 @@ static bool add_variable(figure *f, const motus_variable *v, shared *s)
     if (path && v->components == 2) {
         if (s->plane == SIZE_MAX) {
             if (!room_for_panel(f)) return true;
-            char x[PLOT_LABEL], y[PLOT_LABEL];
-            snprintf(x, sizeof x, "%s.x", v->name);
-            snprintf(y, sizeof y, "%s.y", v->name);
             s->plane = f->plot.count;
-            if (!add_panel(f, "motion", x, y)) return false;
+            if (!add_path_panel(f, v)) return false;
         }
-        f->plot.panels[s->plane].spatial = true;
         return add_paths(f, &f->plot.panels[s->plane], v, &place, exact);
     }
     if (v->dimensions == 0 && v->components == 0 && v->order == 2) {
@@ -222,10 +302,10 @@ static bool add_variable(figure *f, const motus_variable *v, shared *s)
         if (first && !room_for_panel(f)) return true;
         if (first) {
             s->scalars = f->plot.count;
-            if (!add_panel(f, "motion", f->model->time, v->name)) return false;
+            if (!add_time_panel(f, "motion", place.first, NULL)) return false;
         }
         plot_panel *p = &f->plot.panels[s->scalars];
-        if (!first) p->y_label[0] = 0;
+        if (!first) share_label(f, p, v->name);
         if (p->curve_count >= (size_t)2 * MOST_CURVES) {
             f->left_out = true;
             return true;
@@ -234,40 +314,37 @@ static bool add_variable(figure *f, const motus_variable *v, shared *s)
     }
     if (!room_for_panel(f)) return true;
     if (path) {
-        plot_panel *p = add_panel(f, "motion", "x", "y");
-        if (!p) return false;
-        p->spatial = true;
-        snprintf(p->z_label, sizeof p->z_label, "z");
-        return add_paths(f, p, v, &place, exact);
+        plot_panel *p = add_path_panel(f, v);
+        return p && add_paths(f, p, v, &place, exact);
     }
     if (v->components == 0 && place.cells > BUNDLE)
         return full_grid(v, place.cells) ? add_field(f, v, &place) : add_heat(f, v, &place);
-    plot_panel *p = add_panel(f, v->order == 2 ? "motion" : v->name, f->model->time, v->name);
+    plot_panel *p = add_time_panel(f, v->order == 2 ? "motion" : v->name, 0, v->name);
     return p && add_numbers(f, p, &place, exact);
 }
 
-static bool add_named(figure *f, const char *name, size_t first, size_t numbers, bool change)
+/* Adds low panels of the change of invariants since the start. */
+static bool add_drifts(figure *f)
 {
-    if (!room_for_panel(f)) return true;
-    char title[PLOT_LABEL];
-    snprintf(title, sizeof title, "%s%s", change ? "drift of " : "", name);
-    plot_panel *p = add_panel(f, title, f->model->time, change ? "change since the start" : name);
-    size_t shown = numbers < MOST_CURVES ? numbers : MOST_CURVES;
-    f->left_out = f->left_out || shown < numbers;
-    for (size_t k = 0; p && k < shown; k++)
-        if (!add_against_t(f, p, first + spread(k, shown, numbers), PLOT_LINE, change)) return false;
-    return p != NULL;
-}
-
-static bool add_all_named(figure *f, load_naming *name, size_t column, bool change)
-{
-    const char *one;
-    size_t numbers;
-    for (size_t k = 0; (one = name(f->model->system, k, &numbers)) != NULL; k++, column += numbers)
-        if (!add_named(f, one, column, numbers, change)) return false;
+    const char *name;
+    size_t numbers, column = load_invariant_column(f->model);
+    for (size_t k = 0; (name = motus_invariant_name(f->model->system, k, &numbers)) != NULL; k++, column += numbers) {
+        char title[PLOT_LABEL], x[PLOT_LABEL];
+        const size_t shown = numbers < MOST_CURVES ? numbers : MOST_CURVES;
+        f->left_out = f->left_out || shown < numbers || k >= DRIFTS;
+        if (k >= DRIFTS || !room_for_panel(f)) return true;
+        snprintf(title, sizeof title, "change of %s since the start", name);
+        figure_label(f->model, 0, x);
+        plot_panel *p = add_panel(f, title, x, "change");
+        if (!p) return false;
+        p->low = true;
+        for (size_t i = 0; i < shown; i++)
+            if (!add_against_t(f, p, column + spread(i, shown, numbers), PLOT_LINE, true)) return false;
+    }
     return true;
 }
 
+/* Adds the state and the changes of the invariants. Quantities are drawn where --plot-of names them. */
 static bool add_everything(figure *f)
 {
     motus_system *system = f->model->system;
@@ -276,8 +353,7 @@ static bool add_everything(figure *f)
         motus_variable v = motus_default_variable();
         if (motus_variable_at(system, k, &v) == MOTUS_OK && !add_variable(f, &v, &s)) return false;
     }
-    return add_all_named(f, motus_quantity_name, load_quantity_column(f->model), false) &&
-           add_all_named(f, motus_invariant_name, load_invariant_column(f->model), true);
+    return add_drifts(f);
 }
 
 motus_status figure_column(const load *m, const char *name, size_t *column, motus_error *err)
@@ -310,7 +386,8 @@ motus_status figure_plane(const load *m, const char *text, size_t columns[2], mo
 /* Adds a curve of one column against another. */
 static plot_curve *add_recorded(figure *f, plot_panel *p, const char *label, const size_t columns[2], plot_role role)
 {
-    double *x = record_add(&f->fine, columns[0]), *y = x ? record_add(&f->fine, columns[1]) : NULL;
+    double *x = columns[0] == 0 ? f->t : record_add(&f->fine, columns[0]),
+           *y = x ? record_add(&f->fine, columns[1]) : NULL;
     plot_curve *c = y ? plot_curve_add(p, label, x, y, 0, 1) : NULL;
     if (!c) return NULL;
     c->role = role;
@@ -318,24 +395,74 @@ static plot_curve *add_recorded(figure *f, plot_panel *p, const char *label, con
     return c;
 }
 
-/* Adds the plane of two columns. */
-static motus_status add_plane(figure *f, const char *text, motus_error *err)
+/* Finds the columns of the exact motion for two columns. */
+static bool exact_of(const figure *f, const size_t columns[2], size_t exact[2])
 {
-    size_t columns[2] = {0, 0}, exact[2], count[2];
-    char names[2][PLOT_LABEL], title[PLOT_LABEL];
-    motus_status status = figure_plane(f->model, text, columns, err);
-    if (status) return status;
-    for (int a = 0; a < 2; a++) column_name(f, columns[a], names[a], sizeof names[a]);
-    snprintf(title, sizeof title, "%.60s against %.60s", names[1], names[0]);
-    plot_panel *p = add_panel(f, title, names[0], names[1]);
-    if (!p || !add_recorded(f, p, f->plot.title, columns, PLOT_LINE)) return complain_memory(err);
+    char names[2][PLOT_LABEL], name[PLOT_LABEL + 8];
     bool both = true;
     for (int a = 0; both && a < 2; a++) {
-        char name[PLOT_LABEL + 8];
+        size_t count;
+        column_name(f, columns[a], names[a], sizeof names[a]);
         snprintf(name, sizeof name, columns[a] == 0 ? "%s" : "exact %s", names[a]);
-        both = motus_column_find(f->model->system, name, &exact[a], &count[a], NULL) == MOTUS_OK && count[a] == 1;
+        both = motus_column_find(f->model->system, name, &exact[a], &count, NULL) == MOTUS_OK && count == 1;
     }
-    return !both || add_recorded(f, p, "exact", exact, PLOT_EXACT) ? MOTUS_OK : complain_memory(err);
+    return both;
+}
+
+/* Adds the curve of column y against column x to the plane of --plot-of, with its steps, its band and the exact one. */
+static bool add_to_plane(figure *f, plot_panel *p, const size_t columns[2], bool dots)
+{
+    char name[PLOT_LABEL], label[PLOT_LABEL + 8];
+    size_t exact[2];
+    column_name(f, columns[1], name, sizeof name);
+    plot_curve *c = add_recorded(f, p, name, columns, PLOT_LINE);
+    if (!c || (c->timelike && f->bars.with_errors && !add_band(f, c, columns[1]))) return false;
+    if (dots && !add_dots(f, p, 2, (size_t[]){columns[0], columns[1], 0})) return false;
+    snprintf(label, sizeof label, "exact %s", name);
+    return !exact_of(f, columns, exact) || add_recorded(f, p, label, exact, PLOT_EXACT);
+}
+
+/* Adds the plane of --plot-of: one column, and others against it. */
+static motus_status add_plane(figure *f, const char *text, motus_error *err)
+{
+    size_t columns[MOST_CURVES + 1] = {0};
+    char label[2][PLOT_LABEL], title[PLOT_LABEL] = "";
+    options_list names;
+    motus_status status = words_part(text, "--plot-of", &names, err);
+    if (status) return status;
+    if (names.count < 2 || names.count > MOST_CURVES + 1) {
+        status = fail(err, MOTUS_ARGUMENT, "--plot-of %s: two columns are needed, and %d are the most", text,
+                      MOST_CURVES + 1);
+        hint(err, "--plot-of \"x,x'\" draws x' against x");
+    }
+    for (size_t a = 0; !status && a < names.count; a++)
+        status = figure_column(f->model, names.items[a], &columns[a], err);
+    for (size_t a = 1; !status && a < names.count; a++) {
+        const size_t length = strlen(title);
+        snprintf(title + length, sizeof title - length, "%s%.60s", a > 1 ? ", " : "", names.items[a]);
+    }
+    if (!status) {
+        const size_t length = strlen(title);
+        snprintf(title + length, sizeof title - length, " against %.60s", names.items[0]);
+        for (size_t a = 0; a < 2; a++) figure_label(f->model, columns[a], label[a]);
+        plot_panel *p = add_panel(f, title, label[0], label[1]);
+        if (p) p->path = columns[0] != 0;
+        if (p) p->equal = true;
+        for (size_t a = 1; p && a < names.count; a++) {
+            p->equal = p->equal && figure_agree(f->model, columns[0], columns[a]);
+            if (a > 1) share_label(f, p, names.items[a]);
+            if (!add_to_plane(f, p, (size_t[]){columns[0], columns[a]}, names.count <= DOTTED + 1)) p = NULL;
+        }
+        if (!p) status = complain_memory(err);
+    }
+    words_free(&names);
+    return status;
+}
+
+bool figure_smooth(const char *method)
+{
+    const motus_method *found = NULL;
+    return motus_method_find(method, &found, NULL) == MOTUS_OK && found->dense_order > 1;
 }
 
 motus_status figure_begin(figure *f, const load *model, const options *o, motus_run *run, double until, bool errors,
@@ -346,7 +473,11 @@ motus_status figure_begin(figure *f, const load *model, const options *o, motus_
     const int64_t steps = now.steps_total;
     const double way = until - motus_run_time(run);
     *f = (figure){.model = model};
-    f->fine = record_with_jumps(record_for(steps, way, FINE_SAMPLES));
+    f->fine = record_with_jumps(figure_smooth(now.method) && steps > 0 && steps < SMOOTH
+                                    ? record_between(now.step, way, SMOOTH / steps + 1)
+                                    : record_for(steps, way, FINE_SAMPLES));
+    f->dotted = steps <= DOTS;
+    f->steps = record_at_steps(steps, way, STEPS);
     f->coarse = record_for(steps, way, COARSE_SAMPLES);
     f->last = record_for(steps, way, 1);
     text_brief(now.step, 6, step);
@@ -359,7 +490,8 @@ motus_status figure_begin(figure *f, const load *model, const options *o, motus_
     f->bars = record_for(steps, way, BAR_SAMPLES);
     f->bars.with_errors = errors;
     f->bars_t = errors ? record_add(&f->bars, 0) : NULL;
-    if (!f->t || !f->coarse_t || (errors && !f->bars_t)) return complain_memory(err);
+    f->steps_t = record_add(&f->steps, 0);
+    if (!f->t || !f->coarse_t || !f->steps_t || (errors && !f->bars_t)) return complain_memory(err);
     if (o->plot_of) return add_plane(f, o->plot_of, err);
     return add_everything(f) ? MOTUS_OK : complain_memory(err);
 }
@@ -370,6 +502,7 @@ void figure_observers(figure *f, walk_observer out[FIGURE_OBSERVERS])
     out[1] = record_observer(&f->coarse);
     out[2] = record_observer(&f->last);
     out[3] = record_observer(&f->bars);
+    out[4] = record_observer(&f->steps);
 }
 
 static bool fill_heat(figure *f, const figure_heat *h)
@@ -418,19 +551,101 @@ static void tell_unknown(figure *f, double known_until)
         if (!f->heats[i].field) f->plot.panels[f->heats[i].panel].unknown_from = known_until;
 }
 
-motus_status figure_draw(figure *f, double known_until, const char *path, file_out *file, motus_error *err)
+/* ---- events ---- */
+
+/* Returns memory for numbers, which lives as long as the figure. */
+static double *room_for(figure *f, size_t numbers)
+{
+    double **rooms = realloc(f->rooms, (f->room_count + 1) * sizeof *rooms);
+    if (!rooms) return NULL;
+    f->rooms = rooms;
+    rooms[f->room_count] = malloc((numbers + 1) * sizeof **rooms);
+    return rooms[f->room_count] ? rooms[f->room_count++] : NULL;
+}
+
+/* Returns the column that an array of the figure records. */
+static size_t column_in(const record *r, const double *array)
+{
+    size_t k = 0;
+    while (k < r->count && r->values[k] != array) k++;
+    return k < r->count ? r->columns[k] : 0;
+}
+
+/* Adds the events of one name to a panel, as marks on each of its lines. `columns` has three for each line. */
+static motus_status mark_kind(figure *f, plot_panel *p, motus_run *run, size_t kind, const char *name,
+                              const size_t *columns, size_t lines, motus_error *err)
+{
+    const int64_t rows = motus_run_events(run);
+    double *points = room_for(f, 3 * (size_t)rows * lines);
+    size_t count = 0;
+    motus_status status = points ? MOTUS_OK : complain_memory(err);
+    for (int64_t k = 0; !status && k < rows; k++) {
+        motus_event_row row = motus_default_event_row();
+        status = motus_run_event(run, k, &row);
+        if (status || strcmp(row.name, name) != 0) continue;
+        for (size_t i = 0; !status && i < lines; i++)
+            status = motus_run_event_values(run, k, 0, columns + 3 * i, 3, points + 3 * count++, err);
+    }
+    if (status) return status;
+    const bool solid = p->curves[0].z;
+    plot_curve *c = plot_curve_add(p, name, points, points + 1, count, 3);
+    if (!c) return complain_memory(err);
+    c->role = PLOT_MARKS;
+    c->kind = kind;
+    if (solid) c->z = points + 2;
+    return MOTUS_OK;
+}
+
+/* Marks the events of the table, if they are few, on the curves of the state. */
+static motus_status mark_events(figure *f, plot_panel *p, motus_run *run, motus_error *err)
+{
+    enum { KINDS = 12 };
+    size_t columns[3 * 4 * MOST_CURVES], lines = 0, kinds = 0;
+    const char *names[KINDS];
+    const int64_t rows = motus_run_events(run);
+    for (size_t k = 0; k < p->curve_count && lines < 4 * MOST_CURVES; k++) {
+        const plot_curve *c = &p->curves[k];
+        const double *const axes[] = {c->x, c->y, c->z ? c->z : c->y};
+        if (c->role != PLOT_LINE) continue;
+        for (size_t a = 0; a < 3; a++) columns[3 * lines + a] = column_in(&f->fine, axes[a]);
+        lines++;
+    }
+    if (rows * (int64_t)lines > 2 * MARKS) return MOTUS_OK;
+    for (int64_t k = 0; k < rows; k++) {
+        motus_event_row row = motus_default_event_row();
+        size_t i = 0;
+        if (motus_run_event(run, k, &row) != MOTUS_OK) continue;
+        while (i < kinds && strcmp(names[i], row.name) != 0) i++;
+        if (i == kinds && kinds < KINDS) names[kinds++] = row.name;
+    }
+    motus_status status = MOTUS_OK;
+    for (size_t i = 0; !status && i < kinds; i++) status = mark_kind(f, p, run, i, names[i], columns, lines, err);
+    return status;
+}
+
+motus_status figure_draw(figure *f, motus_run *run, double known_until, const char *path, file_out *file,
+                         motus_error *err)
 {
     tell_unknown(f, known_until);
     const size_t known = rows_until(f, known_until);
+    const bool many = f->steps.every > 1 || f->steps.rows > DOTS + 1;
+    const int64_t events = motus_run_events(run);
+    motus_status status = MOTUS_OK;
     for (size_t i = 0; i < f->plot.count; i++)
         for (size_t k = 0; k < f->plot.panels[i].curve_count; k++) {
             plot_curve *c = &f->plot.panels[i].curves[k];
-            c->count = f->fine.rows;
+            c->count = c->role == PLOT_STEPS && many        ? 0
+                       : c->role == PLOT_STEPS || c->change ? f->steps.rows
+                                                            : f->fine.rows;
             c->known = c->change ? c->count : known; /* the change of an invariant is known at all times */
             /* the band ends where no digit is significant any more, or no error is known */
             for (c->band_count = 0; c->at && c->band_count < f->bars.rows; c->band_count++)
                 if (!isfinite(c->error[c->band_count])) break;
         }
+    for (size_t i = 0; !status && events > 0 && events <= MARKS && i < f->plot.count; i++)
+        if (!f->plot.panels[i].low && f->plot.panels[i].curve_count)
+            status = mark_events(f, &f->plot.panels[i], run, err);
+    if (status) return status;
     for (size_t i = 0; i < f->heat_count; i++)
         if (!fill_heat(f, &f->heats[i])) return complain_memory(err);
     return plot_draw(&f->plot, path, file, err);
@@ -443,5 +658,8 @@ void figure_free(figure *f)
     record_free(&f->coarse);
     record_free(&f->last);
     record_free(&f->bars);
+    record_free(&f->steps);
+    for (size_t k = 0; k < f->room_count; k++) free(f->rooms[k]);
+    free(f->rooms);
     *f = (figure){0};
 }

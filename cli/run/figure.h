@@ -1,4 +1,5 @@
-/* The figure of one run: its motion, its quantities, the change of its invariants, or a plane of two columns. */
+/* The figure of one run: its state with the steps of the method and its events, the change of its invariants, or the
+ * columns of --plot-of. */
 #ifndef CLI_RUN_FIGURE_H
 #define CLI_RUN_FIGURE_H
 
@@ -7,7 +8,7 @@
 #include "cli/model/load.h"
 #include "cli/run/walk.h"
 
-enum { FIGURE_OBSERVERS = 4, FIGURE_PANELS = 10 };
+enum { FIGURE_OBSERVERS = 5, FIGURE_PANELS = 10 };
 
 /* Columns of a run in memory, one array each, at a bounded number of steps. */
 typedef struct record {
@@ -19,12 +20,18 @@ typedef struct record {
     double period;     /* of time, for adaptive steps, which have no stride */
     double **errors;   /* errors[k][row] of columns[k]; NULL: they are not recorded */
     bool with_errors;
-    int jumps; /* how many more jumps have room; 0: they are not recorded */
+    int64_t every, seen; /* every: of adaptive steps, one is recorded of so many; 0: the stride says it */
+    int jumps;           /* how many more jumps have room; 0: they are not recorded */
 } record;
 
 /* Prepares at most `samples` samples of a run of `steps` steps over the time `way`. steps 0: they are adaptive. samples
  * 1: only the end is recorded. */
 record record_for(int64_t steps, double way, int64_t samples);
+/* Prepares `within` samples in each step of a run with steps of one size. */
+record record_between(double step, double way, int64_t within);
+/* Prepares at most `samples` samples at steps, also of adaptive ones, whose number is not known before: a record that
+ * is full goes on with every other step. It has no errors. */
+record record_at_steps(int64_t steps, double way, int64_t samples);
 /* Adds room for both sides of jumps, and a row of NaN between them, to a record without errors. Call it before
  * record_add(). */
 record record_with_jumps(record);
@@ -45,7 +52,11 @@ typedef struct figure {
     plot_figure plot;
     record fine, coarse, last; /* for curves; for heat maps against time; for fields at the end */
     record bars;               /* for bands of errors; empty if the run has no errors */
-    double *t, *coarse_t, *bars_t;
+    record steps;              /* for the dots at steps, and the changes of invariants */
+    double *t, *coarse_t, *bars_t, *steps_t;
+    bool dotted;    /* the steps are drawn, if there are not many */
+    double **rooms; /* of marks */
+    size_t room_count;
     figure_heat heats[FIGURE_PANELS];
     size_t heat_count;
     bool left_out; /* some cells or panels are not drawn */
@@ -58,10 +69,19 @@ motus_status figure_begin(figure *, const load *, const options *, motus_run *, 
 motus_status figure_column(const load *, const char *name, size_t *column, motus_error *);
 /* Finds the two columns of --plot-of. */
 motus_status figure_plane(const load *, const char *text, size_t columns[2], motus_error *);
+/* Writes the name of a column with its unit. */
+void figure_label(const load *, size_t column, char out[PLOT_LABEL]);
+/* Returns whether two columns have one unit, so that axes of both have one scale: by the comments of the model, or
+ * where it tells no unit, because both are positions or both are velocities. */
+bool figure_agree(const load *, size_t, size_t);
+/* Returns whether curves between the steps of a method are nearer to its motion than straight lines: not of first
+ * order. */
+bool figure_smooth(const char *method);
 /* Makes the observers that record the run. */
 void figure_observers(figure *, walk_observer out[FIGURE_OBSERVERS]);
-/* Draws the figure. No digit is known after the time `known_until`; NaN: digits are known at all times. */
-motus_status figure_draw(figure *, double known_until, const char *path, file_out *, motus_error *);
+/* Draws the figure of a finished run. No digit is known after the time `known_until`; NaN: digits are known at all
+ * times. */
+motus_status figure_draw(figure *, motus_run *, double known_until, const char *path, file_out *, motus_error *);
 void figure_free(figure *);
 
 /* The columns of a variable: component c of cell i is first + i cell_step + c component_step. */
@@ -74,8 +94,8 @@ bool figure_find(const load *, const motus_variable *, const char *prefix, const
 
 /* section.c: the points of --section in a plane. */
 
-/* Chooses the plane before the run: that of --plot-of, or a number and its velocity: the only number of the model,
- * or, of two numbers, the one that the section does not name. */
+/* Chooses the plane before the run: that of --plot-of, or a number that the section does not name against its velocity;
+ * without velocities, two such numbers; where the section fixes one of two numbers, the other against the time. */
 motus_status section_plane(const load *, const options *, size_t columns[2], motus_error *);
 /* Draws the points of a finished run. Fails if there are none. */
 motus_status section_draw(const load *, const options *, motus_run *, const size_t columns[2], file_out *,

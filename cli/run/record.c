@@ -27,6 +27,18 @@ record record_for(int64_t steps, double way, int64_t samples)
     return r;
 }
 
+record record_between(double step, double way, int64_t within)
+{
+    const double period = fabs(step) / (double)within;
+    return (record){.period = period, .room = (size_t)(fabs(way) / period) + 3};
+}
+
+record record_at_steps(int64_t steps, double way, int64_t samples)
+{
+    if (steps > 0) return record_for(steps, way, samples);
+    return (record){.stride = 1, .room = (size_t)samples, .every = 1};
+}
+
 record record_with_jumps(record r)
 {
     r.jumps = JUMPS;
@@ -62,10 +74,24 @@ double *record_add(record *r, size_t column)
     return array;
 }
 
+/* Keeps every other row of a record that is full. */
+static void halve(record *r)
+{
+    for (size_t k = 0; k < r->count; k++)
+        for (size_t i = 0; 2 * i < r->rows; i++) r->values[k][i] = r->values[k][2 * i];
+    r->rows = (r->rows + 1) / 2;
+    r->every *= 2;
+}
+
 static motus_status take(void *context, const double *values, motus_error *err)
 {
     (void)err;
     record *r = context;
+    if (r->every > 0 && r->seen++ % r->every != 0) return MOTUS_OK;
+    if (r->every > 0 && r->rows == r->room) {
+        halve(r);
+        if ((r->seen - 1) % r->every != 0) return MOTUS_OK;
+    }
     if (r->rows + (size_t)r->jumps * JUMP_ROWS >= r->room) r->rows--;
     for (size_t k = 0; k < r->count; k++) r->values[k][r->rows] = values[k];
     for (size_t k = 0; r->with_errors && k < r->count; k++) r->errors[k][r->rows] = values[r->count + k];

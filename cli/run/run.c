@@ -200,7 +200,7 @@ static motus_status finish(job *j, double seconds, motus_error *err)
     if (!status && o->plot && o->section)
         status = section_draw(&j->model, o, j->run, j->plane, &j->files[PLOT], err);
     else if (!status && o->plot)
-        status = figure_draw(&j->figure, j->estimate.significant_until, o->plot, &j->files[PLOT], err);
+        status = figure_draw(&j->figure, j->run, j->estimate.significant_until, o->plot, &j->files[PLOT], err);
     if (!status && o->events) status = event_file_write(&j->files[EVENTS], &j->model, o, j->run, err);
     for (int i = 0; !status && i < FILES; i++) status = file_finish(&j->files[i], err);
     summary s = {&j->model,
@@ -223,6 +223,9 @@ static motus_status finish(job *j, double seconds, motus_error *err)
     for (int i = 0; !status && i < FILES; i++) status = file_keep(&j->files[i], err);
     if (!status && !o->quiet && o->plot && j->figure.left_out)
         complain_note("the figure shows only some cells or panels: there are more than it has room for");
+    const char *const quantity = motus_quantity_name(j->model.system, 0, NULL);
+    if (!status && !o->quiet && o->plot && !o->plot_of && !o->section && quantity)
+        complain_note("the figure shows no quantities; --plot-of \"%s,%s\" draws one", j->model.time, quantity);
     return status;
 }
 

@@ -20,39 +20,65 @@ static bool names(const char *text, const char *name, const bool *primed)
     return false;
 }
 
-/* Returns the only number of the model, or, of two numbers, the one that the section does not name. NULL: there is no
- * such number. */
-static const char *chosen(const load *m, const options *o)
+/* The numbers of the state that a section leaves free. */
+typedef struct plane {
+    size_t moving[2];               /* the first such position, and its velocity */
+    size_t free[2];                 /* first-order variables */
+    size_t count, numbers;          /* how many of `free` there are, and how many numbers the state has */
+    char only[MOTUS_NAME_MAX + 64]; /* the name of the last number */
+    size_t first[2];                /* the first number of the state, and its velocity */
+} plane;
+
+/* Looks at a component of the first cell of a variable; `velocity` is its column, or 0. */
+static void look(const load *m, const char *section, size_t column, size_t velocity, plane *p)
 {
-    const char *left = NULL;
-    const size_t count = motus_variable_count(m->system);
-    size_t named = 0;
-    for (size_t k = 0; k < count; k++) {
+    motus_column c = motus_default_column(), v = motus_default_column();
+    if (motus_column_at(m->system, column, &c) || (velocity && motus_column_at(m->system, velocity, &v))) return;
+    if (p->numbers++ == 0) p->first[0] = column, p->first[1] = velocity;
+    snprintf(p->only, sizeof p->only, "%s", c.name);
+    if (names(section, c.name, NULL) || (velocity && names(section, v.name, NULL))) return;
+    if (velocity && !p->moving[0]) p->moving[0] = column, p->moving[1] = velocity;
+    if (!velocity && p->count < 2) p->free[p->count++] = column;
+}
+
+static plane free_numbers(const load *m, const char *section)
+{
+    enum { CELLS = 64 }; /* of a family; a section names few of them */
+    plane p = {0};
+    for (size_t k = 0; k < motus_variable_count(m->system); k++) {
         motus_variable v = motus_default_variable();
-        if (motus_variable_at(m->system, k, &v) != MOTUS_OK || v.count != 1 || v.order != 2) return NULL;
-        if (count > 1 && names(o->section, v.name, NULL))
-            named++;
-        else
-            left = v.name;
+        figure_place at, its = {0};
+        if (motus_variable_at(m->system, k, &v) != MOTUS_OK || !figure_find(m, &v, "", "", &at)) continue;
+        const bool moves = v.order == 2 && figure_find(m, &v, "", "'", &its);
+        for (size_t i = 0; i < at.cells && i < CELLS; i++)
+            for (size_t c = 0; c < at.components; c++) {
+                const size_t velocity = its.first + i * its.cell_step + c * its.component_step;
+                look(m, section, at.first + i * at.cell_step + c * at.component_step, moves ? velocity : 0, &p);
+            }
     }
-    return count == 1 || (count == 2 && named == 1) ? left : NULL;
+    return p;
 }
 
 motus_status section_plane(const load *m, const options *o, size_t columns[2], motus_error *err)
 {
     if (o->plot_of) return figure_plane(m, o->plot_of, columns, err);
-    const char *const name = chosen(m, o);
-    char text[2 * MOTUS_NAME_MAX + 8];
-    if (!name)
+    const plane p = free_numbers(m, o->section);
+    const size_t *const chosen = p.moving[0] ? p.moving : p.count == 2 ? p.free : p.first;
+    columns[0] = chosen[0];
+    columns[1] = chosen[1];
+    if (p.numbers == 0)
         return complain(err, MOTUS_ARGUMENT, "choose two columns: --plot-of \"y,y'\"",
-                        "--section %s: the model does not say in which plane to draw it", o->section);
-    /* a number that the section fixes is not an axis */
-    const bool of_x = names(o->section, name, &(bool){false}), of_v = names(o->section, name, &(bool){true});
-    if (of_x != of_v)
-        snprintf(text, sizeof text, "t,%s%s", name, of_x ? "'" : "");
-    else
-        snprintf(text, sizeof text, "%s,%s'", name, name);
-    return figure_plane(m, text, columns, err);
+                        "--section %s: the model has no state in whose plane to draw it", o->section);
+    /* where one number is all, what the section fixes is no axis */
+    const bool of_x = names(o->section, p.only, &(bool){false}), of_v = names(o->section, p.only, &(bool){true});
+    if (p.numbers == 1 && of_x != of_v) {
+        columns[1] = of_x && p.first[1] ? p.first[1] : p.first[0];
+        columns[0] = 0;
+    } else if (columns[1] == 0) { /* a first-order variable alone */
+        columns[1] = p.count ? p.free[0] : columns[0];
+        columns[0] = 0;
+    }
+    return MOTUS_OK;
 }
 
 /* Returns whether row k of the table is a point of the section. */
@@ -80,18 +106,18 @@ motus_status section_draw(const load *m, const options *o, motus_run *run, const
                           motus_error *err)
 {
     plot_figure plot = {0};
-    motus_column axis[2] = {motus_default_column(), motus_default_column()};
-    char title[PLOT_LABEL];
+    char title[PLOT_LABEL], axis[2][PLOT_LABEL];
     size_t count = 0;
     double *points = malloc((2 * (size_t)motus_run_events(run) + 1) * sizeof *points);
     motus_status status = points ? collect(o, run, columns, points, &count, err) : complain_memory(err);
-    for (int a = 0; !status && a < 2; a++) status = motus_column_at(m->system, columns[a], &axis[a]);
+    for (int a = 0; a < 2; a++) figure_label(m, columns[a], axis[a]);
     if (!status) {
         snprintf(plot.title, sizeof plot.title, "%.60s: %.40s", m->title, motus_run_now(run).method);
         snprintf(title, sizeof title, "where %.100s: %zu points", o->section, count);
-        plot_panel *p = plot_panel_add(&plot, title, axis[0].name, axis[1].name);
+        plot_panel *p = plot_panel_add(&plot, title, axis[0], axis[1]);
         plot_curve *c = p ? plot_curve_add(p, title, points, points + 1, count, 2) : NULL;
         if (c) c->role = PLOT_POINTS;
+        if (p) p->equal = figure_agree(m, columns[0], columns[1]);
         status = c ? plot_draw(&plot, o->plot, file, err) : complain_memory(err);
     }
     plot_free(&plot);

@@ -9,6 +9,7 @@
 #include "cli/words/text.h"
 #include "tell/tell.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -149,42 +150,75 @@ static motus_status print_tables(const studies *s, const void *result, motus_err
     return good ? MOTUS_OK : complain_memory(err);
 }
 
+/* Makes the rows of the choice: the merit of a method is its smallest error, at equal work. NULL: no memory. */
+static choose_row *choices(const motus_convergence *c, const studies *s)
+{
+    choose_row *rows = calloc(c->row_count + 1, sizeof *rows);
+    double least = INFINITY, most = 1;
+    for (int pass = 0; rows && pass < 2; pass++)
+        for (size_t k = 0; k < c->row_count; k++) {
+            const motus_converge_row *r = c->rows[k];
+            const motus_point *finest = NULL;
+            for (size_t i = 0; i < r->point_count; i++)
+                if (r->points[i]->error > 0 && (!finest || r->points[i]->error < finest->error)) finest = r->points[i];
+            const double work = finest ? (double)finest->evaluations : 0;
+            if (finest) least = fmin(least, finest->error);
+            most = fmax(most, work);
+            rows[k] = (choose_row){.method = r->method, .work = work, .merit = INFINITY};
+            if (finest) rows[k].merit = choose_merit(finest->error, least, work, most, r->declared);
+        }
+    if (rows) (void)choose_methods(rows, c->row_count, s, true);
+    return rows;
+}
+
+/* Adds the curve of a method: its errors against its steps. Returns how many points it has, which are at `numbers`. */
+static size_t add_row(plot_panel *p, const motus_converge_row *r, double *numbers, motus_status *status)
+{
+    size_t count = 0;
+    char label[PLOT_LABEL];
+    for (size_t i = 0; i < r->point_count; i++)
+        if (r->points[i]->error > 0) { /* 0 has no logarithm */
+            numbers[2 * count] = r->points[i]->step;
+            numbers[2 * count++ + 1] = r->points[i]->error;
+        }
+    if (r->observed == r->observed)
+        snprintf(label, sizeof label, "%s %.2f", r->method, r->observed);
+    else
+        snprintf(label, sizeof label, "%s", r->method);
+    if (count > 0 && !plot_curve_add(p, label, numbers, numbers + 1, count, 2)) *status = MOTUS_MEMORY;
+    return count;
+}
+
 /* Draws error against step, both logarithmic, so that the slope is the order. */
 static motus_status draw(studies *s, const void *result, file_out *file, motus_error *err)
 {
     const motus_convergence *c = result;
     plot_figure figure = {0};
+    char step[PLOT_LABEL];
+    size_t points = 0, used = 0, drawn = 0;
+    units_label(s->model.text, "step", true, step, sizeof step);
     snprintf(figure.title, sizeof figure.title, "%s: error against step", s->model.title);
-    plot_panel *p = plot_panel_add(&figure, "slope is the order", "step", "largest error");
-    size_t points = 0, used = 0;
+    plot_panel *p = plot_panel_add(&figure, "slope is the order", step, "largest error");
     for (size_t k = 0; k < c->row_count; k++) points += c->rows[k]->point_count;
     double *numbers = malloc((2 * points + 1) * sizeof *numbers);
-    motus_status status = p && numbers ? MOTUS_OK : complain_memory(err);
+    choose_row *rows = choices(c, s);
+    motus_status status = p && numbers && rows ? MOTUS_OK : MOTUS_MEMORY;
     for (size_t k = 0; !status && k < c->row_count; k++) {
-        const motus_converge_row *r = c->rows[k];
-        size_t first = used, count = 0;
-        for (size_t i = 0; i < r->point_count; i++)
-            if (r->points[i]->error > 0) { /* 0 has no logarithm */
-                numbers[2 * used] = r->points[i]->step;
-                numbers[2 * used++ + 1] = r->points[i]->error;
-                count++;
-            }
-        char label[PLOT_LABEL];
-        if (r->observed == r->observed)
-            snprintf(label, sizeof label, "%s %.2f", r->method, r->observed);
-        else
-            snprintf(label, sizeof label, "%s", r->method);
-        if (count > 0 && !plot_curve_add(p, label, numbers + 2 * first, numbers + 2 * first + 1, count, 2))
-            status = complain_memory(err);
+        if (!rows[k].shown) continue;
+        used += add_row(p, c->rows[k], numbers + 2 * used, &status);
+        drawn++;
     }
+    if (status) (void)complain_memory(err);
     if (!status && p->curve_count == 0)
         status = fail(err, MOTUS_ARGUMENT, "there is nothing to draw: every error is 0 or unknown");
     if (!status) {
         p->logarithmic = true;
         status = plot_draw(&figure, s->options->plot, file, err);
     }
+    if (!status) choose_note(drawn, c->row_count, s);
     plot_free(&figure);
     free(numbers);
+    free(rows);
     return status;
 }
 

@@ -14,10 +14,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { DRAWN = 12 }; /* the figure draws all methods if there are at most this many */
-/* if there are more, it draws those that need at most this many times the least work at some accuracy */
-#define NEAR 2.0
-
 static void tell(json *j, const void *result) { tell_ranking(j, result); }
 
 static bool reached(const motus_rank_point *p) { return !isnan(p->error); }
@@ -31,8 +27,31 @@ static void accuracy_cell(table *t, double accuracy)
     table_cell(t, text);
 }
 
+/* Makes the rows of the choice: the merit of a method is the mean logarithm of its work over the least work, where an
+ * accuracy that it does not reach counts as a thousand times that. The cheapest for an accuracy is shown in any case.
+ * NULL: no memory. */
+static choose_row *choices(const motus_ranking *r, const studies *s, bool picture, size_t *shown)
+{
+    choose_row *rows = calloc(r->row_count + 1, sizeof *rows);
+    for (size_t k = 0; rows && k < r->row_count; k++) {
+        const motus_rank_row *row = r->rows[k];
+        double merit = 0;
+        for (size_t i = 0; i < r->judged; i++) {
+            if (r->fewest[i] >= r->row_count) continue;
+            const double least = (double)r->rows[r->fewest[i]]->points[i]->evaluations;
+            merit += reached(row->points[i]) ? log((double)row->points[i]->evaluations / least) : log(1000);
+            rows[k].must = rows[k].must || r->fewest[i] == k || r->fastest[i] == k;
+        }
+        rows[k].method = row->method;
+        rows[k].merit = reached(row->points[0]) ? merit : INFINITY;
+        rows[k].work = (double)row->points[0]->seconds;
+    }
+    if (rows) *shown = choose_methods(rows, r->row_count, s, picture);
+    return rows;
+}
+
 /* Makes a table with a line for each method that reached an accuracy, and a column for each accuracy. */
-static table *work_table(const motus_ranking *r, bool time)
+static table *work_table(const motus_ranking *r, const choose_row *rows, bool time)
 {
     char align[64] = "lr";
     memset(align + 2, 'r', r->judged);
@@ -42,7 +61,7 @@ static table *work_table(const motus_ranking *r, bool time)
     for (size_t i = 0; i < r->judged; i++) accuracy_cell(t, r->accuracies[i]);
     for (size_t k = 0; k < r->row_count; k++) {
         const motus_rank_row *row = r->rows[k];
-        if (!reached(row->points[0])) continue;
+        if (!rows[k].shown || !reached(row->points[0])) continue;
         table_cell(t, row->method);
         table_integer(t, row->order);
         for (size_t i = 0; i < r->judged; i++) {
@@ -92,45 +111,39 @@ static motus_status print_tables(const studies *s, const void *result, motus_err
     const motus_ranking *r = result;
     const bool colours = complain_colours(1);
     char title[MOTUS_NAME_MAX + 128];
+    size_t shown = 0;
+    choose_row *rows = choices(r, s, false, &shown);
+    if (!rows) return complain_memory(err);
     studies_title(s, r->reference, r->reference_error);
     snprintf(title, sizeof title, "Evaluations of the force for an error of the answer of at most%s",
              r->absolute ? ", absolute" : "");
-    bool good = print_table(title, work_table(r, false), colours);
+    bool good = print_table(title, work_table(r, rows, false), colours);
     snprintf(title, sizeof title, "Time for it, by the %s", r->machine);
     if (strcmp(r->machine, "interpreter") != 0) snprintf(title, sizeof title, "Time for it, %s", r->machine);
-    good = print_table(title, work_table(r, true), colours) && good;
+    good = print_table(title, work_table(r, rows, true), colours) && good;
     good = print_table("The cheapest", cheapest_table(r), colours) && good;
+    choose_tell(shown, r->row_count, "work");
     bool first = true;
     for (size_t k = 0; k < r->row_count; k++)
-        if (r->rows[k]->note[0]) studies_note(r->rows[k]->method, r->rows[k]->note, &first);
+        if (rows[k].shown && r->rows[k]->note[0]) studies_note(r->rows[k]->method, r->rows[k]->note, &first);
     if (r->remarks[0]) {
         putchar('\n');
-        text_wrap(stdout, r->remarks, 2, 100);
+        text_wrap(stdout, r->remarks, 2, 80);
     }
+    free(rows);
     return good ? MOTUS_OK : complain_memory(err);
 }
 
 /* ---- the figure ---- */
 
-static bool near(const motus_ranking *r, size_t k)
-{
-    for (size_t i = 0; i < r->judged; i++) {
-        const motus_rank_point *p = r->rows[k]->points[i];
-        if (reached(p) && ((double)p->evaluations <= NEAR * (double)r->rows[r->fewest[i]]->points[i]->evaluations ||
-                           p->seconds <= NEAR * r->rows[r->fastest[i]]->points[i]->seconds))
-            return true;
-    }
-    return false;
-}
-
 /* Draws error against work, both logarithmic. `numbers` is memory for the points. */
-static motus_status draw_panel(const motus_ranking *r, plot_panel *p, bool time, bool all, double *numbers,
-                               motus_error *err)
+static motus_status draw_panel(const motus_ranking *r, plot_panel *p, const choose_row *rows, bool time,
+                               double *numbers, motus_error *err)
 {
     size_t used = 0;
     for (size_t k = 0; k < r->row_count; k++) {
         const size_t first = used;
-        if (!all && !near(r, k)) continue;
+        if (!rows[k].shown) continue;
         for (size_t i = 0; i < r->judged; i++) {
             const motus_rank_point *point = r->rows[k]->points[i];
             const double work = time ? point->seconds : (double)point->evaluations;
@@ -153,23 +166,22 @@ static motus_status draw(studies *s, const void *result, file_out *file, motus_e
     plot_figure figure = {0};
     size_t drawn = 0;
     snprintf(figure.title, sizeof figure.title, "%s: error against work", s->model.title);
-    for (size_t k = 0; k < r->row_count; k++) drawn += reached(r->rows[k]->points[0]);
     const size_t points = r->row_count * r->judged;
-    const bool all = drawn <= DRAWN;
+    choose_row *rows = choices(r, s, true, &drawn);
     double *numbers = malloc((4 * points + 1) * sizeof *numbers);
-    motus_status status = numbers ? MOTUS_OK : complain_memory(err);
+    motus_status status = numbers && rows ? MOTUS_OK : complain_memory(err);
     for (int time = 0; time < 2 && !status; time++) {
         char axis[PLOT_LABEL];
         snprintf(axis, sizeof axis, "time in seconds, %s", r->machine);
         plot_panel *p = plot_panel_add(&figure, time ? "time" : "evaluations", time ? axis : "evaluations of the force",
                                        r->absolute ? "largest error" : "largest error, relative");
-        status = p ? draw_panel(r, p, time, all, numbers + (time ? 2 * points : 0), err) : complain_memory(err);
+        status = p ? draw_panel(r, p, rows, time, numbers + (time ? 2 * points : 0), err) : complain_memory(err);
     }
     if (!status) status = plot_draw(&figure, s->options->plot, file, err);
-    if (!status && !all && !s->options->quiet)
-        complain_note("the figure shows the methods that need at most %g times the least work at some accuracy", NEAR);
+    if (!status) choose_note(drawn, r->row_count, s);
     plot_free(&figure);
     free(numbers);
+    free(rows);
     return status;
 }
 

@@ -35,6 +35,7 @@ motus_status studies_begin(studies *s, const char *what, bool steps, const optio
     def->evaluations = o->evaluations;
     def->progress = stop_progress_hook;
     def->context = &s->progress;
+    s->def = *def;
     s->progress = stop_progress_begin(what, o->quiet);
     return MOTUS_OK;
 }
@@ -60,7 +61,7 @@ void studies_note(const char *method, const char *text, bool *first)
     complain_named(text, note, sizeof note);
     snprintf(line, sizeof line, "%s%s%s", named ? "" : method, named ? "" : ": ", note);
     fputs(*first ? "\n" : "", stdout);
-    text_wrap(stdout, line, 2, 100);
+    text_wrap(stdout, line, 2, 80);
     *first = false;
 }
 

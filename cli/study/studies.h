@@ -11,6 +11,7 @@
 typedef struct studies {
     const options *options;
     load model;
+    motus_study_def def; /* as studies_begin fills it */
     stop_progress progress;
 } studies;
 
@@ -34,9 +35,28 @@ typedef struct studies_ways {
  * its name last. */
 motus_status studies_show(studies *, const studies_ways *, const void *result, motus_error *);
 
-/* Draws the figure of a comparison: the motion by each method, over the exact motion (overlay.c). */
-motus_status overlay_draw(const load *, const motus_comparison *, const options *, file_out *, stop_progress *,
-                          motus_error *);
+/* choose.c: which methods tables and figures show. */
+enum { CHOOSE_MOST = 12 };
+typedef struct choose_row {
+    const char *method;
+    double merit; /* the smaller the better; not finite: the method is shown only if all are */
+    double work;  /* of equal ones the smaller is better */
+    bool must, shown;
+} choose_row;
+/* Sets `shown`; returns how many are: in a table all of them with --all, or where --methods names them; in a picture at
+ * most CHOOSE_MOST. */
+size_t choose_methods(choose_row *, size_t count, const studies *, bool picture);
+/* Prints a note how many methods a picture shows, unless it shows all. */
+void choose_note(size_t drawn, size_t count, const studies *);
+/* Returns what the error would be with the work `most`, by the order, but at least `least`: round-off has no order. */
+double choose_merit(double error, double least, double work, double most, int order);
+/* Prints below a table how many methods are shown, unless all are. */
+void choose_tell(size_t shown, size_t count, const char *measure);
+
+/* Draws the figure of a comparison, of the `shown` methods: the motion by each, over the exact
+ * motion, and below it the errors (overlay.c). */
+motus_status overlay_draw(const studies *, const motus_comparison *, const choose_row *shown, file_out *,
+                          stop_progress *, motus_error *);
 
 /* Does motus compare --accuracies (rank.c). */
 motus_status rank_verb(const options *, motus_error *);

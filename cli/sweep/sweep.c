@@ -47,7 +47,7 @@ static motus_status create(sweep *s, motus_ensemble_def *def, stop_progress *pro
     def->fast = o->fast;
     def->error = s->errors ? options_bars(o) : MOTUS_BARS_NONE;
     def->expected = s->grid.total / s->shard.count + 1; /* about: the size of blocks is not known yet */
-    def->events = o->events || o->plot;
+    def->events = o->events || (o->plot && o->section);
     def->event_columns = s->event_columns;
     def->event_column_count = s->event_columns_count + s->event_columns_more;
     def->causes = 1;
@@ -222,7 +222,7 @@ static motus_status go(sweep *s, sweep_file *f, sweep_events *events, sweep_sect
         const sweep_rows rows = sweep_batch_rows(&b);
         note_machine(s);
         if (!status) status = sweep_events_rows(events, f->rows, count, err);
-        if (!status) status = sweep_section_take(section, f->rows, count, b.values, err);
+        if (!status) status = sweep_section_take(section, f->rows, count, &rows, err);
         if (!status) status = sweep_file_rows(f, count, &rows, err);
         f->share.writing += stop_clock() - computed;
         if (!status && sweep_file_left(f) > 0 && stop_progress_hook(p, 1))

@@ -260,7 +260,22 @@ motus_status sweep_events_finish(sweep_events *, motus_error *);
 motus_status sweep_events_join(sweep_events *, stop_progress *, motus_error *);
 void sweep_events_close(sweep_events *);
 
-/* sweep_section.c: the picture of the points of --section. Without --plot, each call does nothing. */
+/* sweep_curves.c: the picture of what is recorded. */
+typedef struct sweep_curves {
+    const sweep *sweep;
+    size_t axis, second;    /* the numbers that vary on the axes; second grid.count: there is one alone */
+    size_t shown[6], count; /* records */
+    bool random;
+    double *numbers; /* both values, the records and their errors, for each row */
+    size_t width, rows, room;
+} sweep_curves;
+motus_status sweep_curves_plan(sweep_curves *, const sweep *, motus_error *);
+motus_status sweep_curves_take(sweep_curves *, uint64_t first, size_t count, const sweep_rows *, motus_error *);
+motus_status sweep_curves_draw(sweep_curves *, file_out *, motus_error *);
+void sweep_curves_close(sweep_curves *);
+
+/* sweep_section.c: the picture of the points of --section, or else that of sweep_curves.c. Without --plot, each call
+ * does nothing. */
 struct sweep_section {
     const sweep *sweep;
     bool varied[2];         /* whether x and y of the picture are varied numbers */
@@ -269,6 +284,7 @@ struct sweep_section {
     double *values;         /* memory for the values of an event */
     double *points;         /* x, y and the number that gives the colour, for each point */
     size_t count, room;
+    sweep_curves curves; /* without --section */
     file_out file;
 };
 
@@ -277,7 +293,7 @@ motus_status sweep_section_check(const options *, motus_error *);
 motus_status sweep_section_plan(sweep_section *, sweep *, motus_error *);
 motus_status sweep_section_open(sweep_section *, motus_error *);
 /* Takes the points of the last batch, whose first trajectory has the row `first`. */
-motus_status sweep_section_take(sweep_section *, uint64_t first, size_t count, double *const *values, motus_error *);
+motus_status sweep_section_take(sweep_section *, uint64_t first, size_t count, const sweep_rows *, motus_error *);
 motus_status sweep_section_draw(sweep_section *, motus_error *);
 void sweep_section_close(sweep_section *);
 

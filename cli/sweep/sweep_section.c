@@ -18,12 +18,9 @@ enum { X, Y, SHADE, NUMBERS };
 motus_status sweep_section_check(const options *o, motus_error *err)
 {
     if (!o->plot) return MOTUS_OK;
-    if (!o->section)
-        return complain(err, MOTUS_ARGUMENT, "add --section \"x = 0 rising\"",
-                        "--plot of a sweep draws the points of a section");
     if (o->resume)
-        return complain(err, MOTUS_ARGUMENT, "write the points with --events points.csv, or leave out --resume",
-                        "--resume and --plot exclude each other: the file has rows, but not their points");
+        return complain(err, MOTUS_ARGUMENT, "leave out one of them",
+                        "--resume and --plot exclude each other: a picture has all trajectories of one command");
     const char *const others[] = {o->output, o->events, o->operand};
     for (size_t k = 0; k < sizeof others / sizeof *others; k++)
         if (others[k] && file_same(others[k], o->plot))
@@ -56,6 +53,7 @@ motus_status sweep_section_plan(sweep_section *p, sweep *s, motus_error *err)
     const options *o = s->options;
     *p = (sweep_section){.sweep = s};
     if (!o->plot) return MOTUS_OK;
+    if (!o->section) return sweep_curves_plan(&p->curves, s, err);
     motus_status status = o->plot_of ? varied_axis(p, o->plot_of, err) : MOTUS_OK;
     if (!status && !p->varied[0] && !p->varied[1]) status = section_plane(&s->model, o, p->of, err);
     if (status) return status;
@@ -99,9 +97,11 @@ static double shade_of(const sweep *s, uint64_t first, size_t k, double *const *
     return s->grid.count == 1 ? values[0][k] : (double)shard_trajectory(&s->shard, first + k);
 }
 
-motus_status sweep_section_take(sweep_section *p, uint64_t first, size_t count, double *const *values, motus_error *err)
+motus_status sweep_section_take(sweep_section *p, uint64_t first, size_t count, const sweep_rows *of, motus_error *err)
 {
     const sweep *s = p->sweep;
+    double *const *values = of->values;
+    if (s->options->plot && !s->options->section) return sweep_curves_take(&p->curves, first, count, of, err);
     for (size_t k = 0; s->options->plot && k < count; k++) {
         const int64_t rows = motus_ensemble_events(s->ensemble, k);
         int64_t seen = 0;
@@ -118,43 +118,50 @@ motus_status sweep_section_take(sweep_section *p, uint64_t first, size_t count, 
     return MOTUS_OK;
 }
 
-/* Writes the name of an axis of the picture. */
-static motus_status name_of(const sweep_section *p, size_t a, char out[PLOT_LABEL])
+/* Writes the name of an axis of the picture, with its unit. */
+static void name_of(const sweep_section *p, size_t a, char out[PLOT_LABEL])
 {
-    motus_column column = motus_default_column();
     const sweep *s = p->sweep;
-    const motus_status status = p->varied[a] ? MOTUS_OK : motus_column_at(s->model.system, p->of[a], &column);
-    snprintf(out, PLOT_LABEL, "%.100s", p->varied[a] ? s->grid.axes[p->axis[a]].name : column.name);
+    if (p->varied[a])
+        units_label(s->model.text, s->grid.axes[p->axis[a]].name, false, out, PLOT_LABEL);
+    else
+        figure_label(&s->model, p->of[a], out);
+}
+
+static motus_status draw_points(sweep_section *p, motus_error *err)
+{
+    const sweep *s = p->sweep;
+    plot_figure plot = {0};
+    char title[PLOT_LABEL], name[2][PLOT_LABEL];
+    if (p->count == 0)
+        return complain(err, MOTUS_ARGUMENT, "give a later end, --until, or a smaller --skip",
+                        "--section %s: there are no points left to draw", s->options->section);
+    for (size_t a = 0; a < 2; a++) name_of(p, a, name[a]);
+    const bool diagram = p->varied[0] || p->varied[1];
+    snprintf(plot.title, sizeof plot.title, "%.60s: %.40s", s->model.title, s->method);
+    snprintf(title, sizeof title, "where %.60s: %zu points of %" PRIu64 " trajectories", s->options->section, p->count,
+             s->rows);
+    plot_panel *panel = plot_panel_add(&plot, title, name[0], name[1]);
+    plot_curve *c = panel ? plot_curve_add(panel, title, p->points, p->points + Y, p->count, NUMBERS) : NULL;
+    if (c) c->role = PLOT_POINTS;
+    if (c) panel->equal = !diagram && figure_agree(&s->model, p->of[0], p->of[1]);
+    if (c && !diagram && s->rows > 1) {
+        c->shade = p->points + SHADE;
+        if (s->grid.count == 1)
+            units_label(s->model.text, s->grid.axes[0].name, false, panel->shade_label, sizeof panel->shade_label);
+        else
+            snprintf(panel->shade_label, sizeof panel->shade_label, "trajectory");
+    }
+    const motus_status status = c ? plot_draw(&plot, s->options->plot, &p->file, err) : complain_memory(err);
+    plot_free(&plot);
     return status;
 }
 
 motus_status sweep_section_draw(sweep_section *p, motus_error *err)
 {
-    const sweep *s = p->sweep;
-    plot_figure plot = {0};
-    char title[PLOT_LABEL], name[2][PLOT_LABEL];
-    if (!s->options->plot) return MOTUS_OK;
-    if (p->count == 0)
-        return complain(err, MOTUS_ARGUMENT, "give a later end, --until, or a smaller --skip",
-                        "--section %s: there are no points left to draw", s->options->section);
-    motus_status status = name_of(p, 0, name[0]);
-    if (!status) status = name_of(p, 1, name[1]);
-    if (!status) {
-        const bool diagram = p->varied[0] || p->varied[1];
-        snprintf(plot.title, sizeof plot.title, "%.60s: %.40s", s->model.title, s->method);
-        snprintf(title, sizeof title, "where %.60s: %zu points of %" PRIu64 " trajectories", s->options->section,
-                 p->count, s->rows);
-        plot_panel *panel = plot_panel_add(&plot, title, name[0], name[1]);
-        plot_curve *c = panel ? plot_curve_add(panel, title, p->points, p->points + Y, p->count, NUMBERS) : NULL;
-        if (c) c->role = PLOT_POINTS;
-        if (c && !diagram && s->rows > 1) {
-            c->shade = p->points + SHADE;
-            snprintf(panel->shade_label, sizeof panel->shade_label, "%.100s",
-                     s->grid.count == 1 ? s->grid.axes[0].name : "trajectory");
-        }
-        status = c ? plot_draw(&plot, s->options->plot, &p->file, err) : complain_memory(err);
-    }
-    plot_free(&plot);
+    const options *o = p->sweep->options;
+    if (!o->plot) return MOTUS_OK;
+    motus_status status = o->section ? draw_points(p, err) : sweep_curves_draw(&p->curves, &p->file, err);
     if (!status) status = file_finish(&p->file, err);
     return status ? status : file_keep(&p->file, err);
 }
@@ -162,6 +169,7 @@ motus_status sweep_section_draw(sweep_section *p, motus_error *err)
 void sweep_section_close(sweep_section *p)
 {
     file_drop(&p->file);
+    sweep_curves_close(&p->curves);
     free(p->values);
     free(p->points);
     p->values = p->points = NULL;
