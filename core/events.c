@@ -202,7 +202,7 @@ motus_status events_begin(events *e, stepper *s, double until, motus_error *err)
     e->until = until;
     e->way = until < e->start ? -1 : 1;
     e->steps = 0;
-    e->broken = false;
+    e->broken = e->stopped = false;
     e->first = true;
     e->end = EVENTS_END_NONE;
     e->at_once = NAN;
@@ -497,12 +497,53 @@ void events_move(events *e, const machine *m)
     e->probe = NULL;
 }
 
+/* Returns the time from which on the motion goes, in which no time that is known beforehand is a rounding ahead. */
+static double now(const events *e) { return e->left.t + e->way * 4 * events_ulp(e->left.t); }
+
+/* Gives switches that change at known times their sides for the motion from `left` on; h: the size of the next step. */
+static motus_status pass_times(events *e, stepper *s, double h, motus_error *err)
+{
+    const int64_t passed = e->rules.pass ? e->rules.pass(e->rules.ctx, e->way, now(e), e->left.x) : 0;
+    if (!passed && !e->stopped) return MOTUS_OK;
+    e->passed_times += passed;
+    e->stopped = e->left.valued = e->boxed = false;
+    return jump(e, s, &e->left, h, err);
+}
+
+/* Returns the end of the next step: `until`, or the first known time before it at which a switch changes. */
+static double next_stop(const events *e, double until)
+{
+    const double stop = e->rules.next ? e->rules.next(e->rules.ctx, e->way, now(e), e->left.x) : until;
+    return e->way * (until - stop) > 8 * events_ulp(until) ? stop : until;
+}
+
+/* Takes steps of which nothing is asked but their ends. */
+static motus_status plain_steps(events *e, stepper *s, stepper_limit limit, stepper_stop *why, motus_error *err)
+{
+    const int64_t before = stepper_steps(s);
+    motus_status status = stepper_advance(s, limit, why, err);
+    if (!status) status = observe(s, &e->right, err);
+    const int64_t steps = stepper_steps(s) - before;
+    e->first = false;
+    e->taken += steps, e->steps += steps - 1;
+    e->candidates = 0;
+    return status;
+}
+
 static motus_status adaptive_step(events *e, stepper *s, double until, int64_t most, stepper_stop *why,
                                   motus_error *err)
 {
     bool assigned = false;
-    motus_status status = piece(e, s, until, most, &assigned, why, err);
+    motus_status status = pass_times(e, s, stepper_next(s), err);
+    if (status) return status;
+    const double stop = next_stop(e, until);
+    if (e->rules.functions == 0 && !e->clocks && !e->witness)
+        status = plain_steps(e, s, (stepper_limit){most, stop}, why, err);
+    else
+        status = piece(e, s, stop, most, &assigned, why, err);
     if (status || *why == STOP_EVENT) return status;
+    e->stopped = stop != until && *why == STOP_UNTIL && !assigned;
+    if (e->stopped) *why = STOP_STEPS;
     /* the sizes of reversible steps follow from one another, so a step shortened for events would shorten all later
      * steps */
     const bool shortened = row_reversible_steps(&e->method) && e->whole != 0;
@@ -532,7 +573,13 @@ static motus_status grid_step(events *e, stepper *s, double until, stepper_stop 
     if (last && e->may_save && !e->broken && !events_save_here(e, s)) return events_no_memory(err);
     for (;;) {
         bool assigned = false;
-        motus_status status = piece(e, s, e->broken ? end : until, 1, &assigned, why, err);
+        motus_status status = pass_times(e, s, e->broken ? (end - e->left.t) - e->left.lost : e->grid_step, err);
+        const double stop = next_stop(e, end);
+        if (!status && stop != end) {
+            e->broken = true;
+            status = jump(e, s, &e->left, (stop - e->left.t) - e->left.lost, err);
+        }
+        if (!status) status = piece(e, s, e->broken ? stop : until, 1, &assigned, why, err);
         if (status || *why == STOP_EVENT) return status;
         const double left = assigned ? (end - e->here.t) - e->here.lost : (end - e->right.t) - e->right.lost;
         const bool near = fabs(left) <= 8 * events_ulp(end);
@@ -598,7 +645,7 @@ void events_forget(events *e)
     e->jumps = 0;
     events_forget_extrema(e);
     e->rows = e->numbers = e->kept_states = e->pasts = 0;
-    e->acted = 0;
+    e->acted = e->passed_times = 0;
     e->acted_sum = e->tail = 0;
     e->growths = 0;
     e->flights = e->turned_step = 0;
@@ -652,7 +699,7 @@ int64_t events_turns(const events *e)
     int64_t turns = 0;
     for (size_t k = 0; k < e->rules.count; k++)
         if (e->rules.rule[k].internal) turns += e->count[k];
-    return turns;
+    return turns + e->passed_times;
 }
 
 double events_interval(const events *e) { return e->interval; }

@@ -164,10 +164,12 @@ struct events {
     double *samples;   /* the values of all functions at the points of the step */
     double *arguments; /* the arguments of their operations at these points (core/rules.h) */
     int samples_room;
-    bool clocks;   /* some rule is a clock */
-    bool lingers;  /* a function stands at 0 or is open, at the start of the step or at its end */
-    bool partial;  /* the rules were asked at `here` with only a few of the functions evaluated there */
-    bool in_parts; /* the points resolve the function only on parts of the step */
+    bool clocks;          /* some rule is a clock */
+    bool stopped;         /* the last step ended where switches change at a time that is known beforehand */
+    int64_t passed_times; /* how many of these have changed */
+    bool lingers;         /* a function stands at 0 or is open, at the start of the step or at its end */
+    bool partial;         /* the rules were asked at `here` with only a few of the functions evaluated there */
+    bool in_parts;        /* the points resolve the function only on parts of the step */
     /* for each instance of a condition, numbered by `instances`: */
     uint8_t *held;     /* it was true */
     uint8_t *steady;   /* it was true up to this instant, in which it has not happened */

@@ -84,6 +84,7 @@ static void pass_instant(pass *p, events *e)
     numbers(p, at->v, e->problem.nv);
     numbers(p, e->most, e->problem.nx + e->problem.nv);
     e->taken = counter(p, e->taken);
+    if (e->rules.pass) e->passed_times = counter(p, e->passed_times);
     e->pieces = counter(p, e->pieces);
     e->unseen = counter(p, e->unseen);
     e->unseen_at = any(p, e->unseen_at);

@@ -96,7 +96,7 @@ double events_tick(const events *e, size_t k)
 
 double events_next_time(const events *e)
 {
-    double next = e->way * INFINITY;
+    double next = e->rules.next ? e->rules.next(e->rules.ctx, e->way, e->left.t, e->left.x) : e->way * INFINITY;
     for (size_t k = 0; k < e->rules.count; k++) {
         const double tick = e->rules.rule[k].kind == RULE_CLOCK ? events_tick(e, k) : next;
         if (e->way * (next - tick) > 0) next = tick;

@@ -125,6 +125,7 @@ double stepper_time(const stepper *);
 double stepper_lost(const stepper *);               /* what the rounding of stepper_time has left out */
 double stepper_time_of(const stepper *, int64_t n); /* of step n of the leg; NaN where steps adapt */
 double stepper_step(const stepper *);               /* size of the present leg's steps, with its sign */
+double stepper_next(const stepper *);               /* size of the next step, with its sign, unless it is cut */
 double stepper_last_step(const stepper *);          /* size of the latest step, with its sign */
 /* Tells the shortest and the longest step of the leg, without one that was cut short at its end; NaN: no step yet. */
 void stepper_sizes(const stepper *, double *shortest, double *longest);

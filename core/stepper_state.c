@@ -27,6 +27,7 @@ const problem *stepper_problem(const stepper *s) { return &s->problem; }
 const chosen *stepper_method(const stepper *s) { return &s->method; }
 double stepper_limit_of(const stepper *s) { return s->until; }
 double stepper_step(const stepper *s) { return s->leg_h; }
+double stepper_next(const stepper *s) { return s->work.carried ? s->work.next : s->leg_h; }
 double stepper_last_step(const stepper *s) { return s->work.h; }
 void stepper_sizes(const stepper *s, double *shortest, double *longest)
 {

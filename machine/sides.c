@@ -11,6 +11,9 @@
 
 enum { NESTED = 16 }; /* the most switches, each within the argument of the next, that change at once */
 
+/* Goes over the functions after those of the text: n counts them, k is the switch of each. */
+#define EACH_SHOWN(s, n, k) for (size_t n = 0, k; n < (s)->shown_count && (k = (s)->shown[n], true); n++)
+
 /* ---- functions ---- */
 
 /* Tells whether switch k stands at 0 beside a switch that is held, with which it leaves: its side is then a value of
@@ -56,15 +59,17 @@ static int values(void *ctx, double t, double *x, double *v, double *out)
     const int status = s->own.functions ? s->own.values(s->own.ctx, t, x, v, out) : 0;
     if (status) return status;
     out += s->own.functions;
+    if (!s->shown_count) return 0;
     sides_evaluate(s, s->argument, t, x, v, NULL, s->u);
     const bool held = any_held(s, side);
     if (held) sides_measure_hold(s, t, x, v);
-    for (size_t k = 0; k < s->switches->count; k++) {
+    EACH_SHOWN(s, n, k)
+    {
         const parts p = sides_parts_of(s, k);
         const bool slides = p.count && !sides_silent(s, k) && !sides_is_held(s, side, k);
         const double least = slides ? sides_short_of(s, &p, t, x, v) : 0;
         if (slides && held) sides_measure_hold(s, t, x, v);
-        out[k] = sides_silent(s, k)                  ? 1
+        out[n] = sides_silent(s, k)                  ? 1
                  : p.count                           ? sides_direction_of(s, &p, side, s->u, least)
                  : held && sides_is_held(s, side, k) ? grip_of(s, side, k)
                  : is_pinned(s, side, k)             ? 1
@@ -95,10 +100,12 @@ static int rates(void *ctx, double t, double *x, double *v, double *a, double *o
     const int status = s->own.functions ? s->own.rates(s->own.ctx, t, x, v, a, out) : 0;
     if (status) return status;
     out += s->own.functions;
+    if (!s->shown_count) return 0;
     const bool held = measure(s, s->rate, s->hold_rate, s->grip_rate, t, x, v, a, s->du);
-    for (size_t k = 0; k < s->switches->count; k++) {
+    EACH_SHOWN(s, n, k)
+    {
         const parts p = sides_parts_of(s, k);
-        out[k] = sides_silent(s, k)                  ? 0
+        out[n] = sides_silent(s, k)                  ? 0
                  : p.count                           ? sides_direction_rate_of(s, &p, side, s->du)
                  : held && sides_is_held(s, side, k) ? grip_rate_of(s, side, k)
                  : is_pinned(s, side, k)             ? 0
@@ -113,10 +120,12 @@ static void rounding(void *ctx, double t, double *x, double *v, double *out)
     const double *side = x + s->switches->slot;
     if (s->own.functions) s->own.rounding(s->own.ctx, t, x, v, out);
     out += s->own.functions;
+    if (!s->shown_count) return;
     const bool held = measure(s, s->rounding, s->hold_rounding, s->grip_rounding, t, x, v, NULL, s->du);
-    for (size_t k = 0; k < s->switches->count; k++) {
+    EACH_SHOWN(s, n, k)
+    {
         const parts p = sides_parts_of(s, k);
-        out[k] = 0x1p-53 * (sides_silent(s, k)                  ? 0
+        out[n] = 0x1p-53 * (sides_silent(s, k)                  ? 0
                             : p.count                           ? sides_direction_rounding_of(s, &p, side, s->du)
                             : held && sides_is_held(s, side, k) ? grip_rounding_of(s, k)
                             : is_pinned(s, side, k)
@@ -138,14 +147,19 @@ static void least_of(const sides *s, bool rates, double *x, double *v, double *d
     const double *side = x + s->switches->slot;
     if (s->own.functions) (rates ? s->own.least_rates : s->own.least)(s->own.ctx, x, v, dx, dv, out);
     out += s->own.functions;
-    for (size_t k = 0; k < s->switches->count; k++) out[k] = INFINITY; /* cells outside the ranges */
-    double *base[SPACES] = {[SPACE_X] = x, [SPACE_V] = v, [SPACE_DX] = dx, [SPACE_DV] = dv, [SPACE_OUT] = out};
+    if (!s->shown_count) return;
+    double *const least = s->later;
+    for (size_t k = 0; k < s->switches->count; k++) least[k] = INFINITY; /* cells outside the ranges */
+    double *base[SPACES] = {[SPACE_X] = x, [SPACE_V] = v, [SPACE_DX] = dx, [SPACE_DV] = dv, [SPACE_OUT] = least};
     tape_run(rates ? s->least_rates : s->least, NAN, base);
-    for (size_t k = 0; k < s->switches->count; k++)
+    EACH_SHOWN(s, n, k)
+    {
+        out[n] = least[k];
         if (sides_silent(s, k) || is_pinned(s, side, k))
-            out[k] = rates ? 0 : 1;
+            out[n] = rates ? 0 : 1;
         else if (unknown(s, side, k))
-            out[k] = -1;
+            out[n] = -1;
+    }
 }
 
 static void least(void *ctx, double *x, double *v, double *dx, double *dv, double *out)
@@ -200,7 +214,7 @@ static void name(void *ctx, size_t number, size_t instance, char *out, size_t si
     if (number < s->own.count)
         s->own.name(s->own.ctx, number, instance, out, size);
     else
-        sides_print(s, s->switches->first[number - s->own.count] + instance, out, size);
+        sides_print(s, s->switches->first[s->kind_of[number - s->own.count]] + instance, out, size);
 }
 
 /* ---- all switches ---- */
@@ -258,7 +272,8 @@ static motus_status turn(void *ctx, size_t number, size_t instance, double way, 
                          double *v, motus_error *err)
 {
     sides *s = ctx;
-    const size_t count = s->switches->count, switched = s->switches->first[number - s->own.count] + instance;
+    const size_t count = s->switches->count,
+                 switched = s->switches->first[s->kind_of[number - s->own.count]] + instance;
     const double *side = x + s->switches->slot;
     s->way = way;
     sides_evaluate(s, s->argument, *at, x, v, NULL, s->kept);
@@ -274,7 +289,8 @@ static motus_status turn(void *ctx, size_t number, size_t instance, double way, 
         find_rows(s, t, x, v, s->found);
         for (size_t k = 0; k < count && status == MOTUS_OK; k++) {
             const double bound = 0x1p-53 * s->bound[k];
-            if (sides_is_held(s, side, k) || is_pinned(s, side, k) || switches_directs(sides_op_of(s, k)))
+            if (sides_is_held(s, side, k) || is_pinned(s, side, k) || switches_directs(sides_op_of(s, k)) ||
+                sides_is_timed(s, k))
                 continue; /* its argument has been moved to 0 */
             if (!(fabs(s->now[k] - s->kept[k]) > bound + fabs(s->kept[k]) * 0x1p-40)) continue;
             jumped = true;
@@ -321,13 +337,13 @@ static motus_status gather(void *ctx, const size_t *functions, size_t number, do
     bool held;
     memset(s->of, 0, count * sizeof *s->of);
     text[0] = 0;
-    if (number == 1 && switches_directs(sides_op_of(s, functions[0] - s->own.functions))) {
-        const parts p = sides_parts_of(s, functions[0] - s->own.functions);
+    if (number == 1 && switches_directs(sides_op_of(s, s->shown[functions[0] - s->own.functions]))) {
+        const parts p = sides_parts_of(s, s->shown[functions[0] - s->own.functions]);
         s->way = way;
         return sides_stand(s, &p, way, t, x, v, err);
     }
     for (size_t k = 0; k < number; k++) {
-        const size_t f = functions[k] - s->own.functions;
+        const size_t f = s->shown[functions[k] - s->own.functions];
         char one[80];
         s->of[f] = true;
         sides_print(s, f, one, sizeof one);
@@ -353,6 +369,7 @@ static motus_status settle(void *ctx, double way, double t, double *x, double *v
     motus_status status = MOTUS_OK;
     bool settled = false;
     s->way = way;
+    sides_pass_times(s, way, t, x);
     memset(s->of, 0, count * sizeof *s->of);
     for (int pass = 0; pass < NESTED && status == MOTUS_OK && !settled; pass++) {
         memcpy(s->kept, side, count * sizeof *side);
@@ -360,6 +377,7 @@ static motus_status settle(void *ctx, double way, double t, double *x, double *v
             sides_evaluate(s, s->argument, t, x, v, NULL, s->now);
             sides_evaluate(s, s->rounding, t, x, v, NULL, s->bound);
             find_rows(s, t, x, v, s->now);
+            if (sides_is_timed(s, k)) continue;
             status = place(s, k, s->now[k], 0x1p-53 * s->bound[k], way, t, x, v, err);
         }
         settled = pass > 0 && memcmp(s->kept, side, count * sizeof *side) == 0;
@@ -407,6 +425,9 @@ static bool make(sides *s, model *m)
     s->of = arena_room(m->arena, 2 * (w->count + 1) * sizeof *s->of);
     if (!room || !s->rule || !s->beside || !s->of) return false;
     s->covered = s->of + w->count;
+    s->shown = arena_room(m->arena, (w->count + w->kinds + 1) * sizeof *s->shown);
+    if (!s->shown || !sides_find_timed(s, m)) return false;
+    s->kind_of = s->shown + w->count;
     s->u = room, s->du = s->u + w->count, s->later = s->du + w->count;
     s->before = s->later + w->count, s->now = s->before + w->count, s->bound = s->now + w->count;
     s->found = s->bound + w->count;
@@ -415,20 +436,25 @@ static bool make(sides *s, model *m)
     s->a = s->kept + w->count, s->b = s->a + nv, s->v = s->b + nv, s->push = s->v + nv;
     s->x = s->push + nv, s->was = s->x + nx;
     s->way = 1;
-    for (size_t k = 0; k < w->kinds; k++)
-        s->rule[own + k] = (rule){.name = "a switch",
-                                  .kind = RULE_ROOT,
-                                  .direction = -1,
-                                  .first = s->own.functions + w->first[k],
-                                  .leaves = 1,
-                                  .instances = switches_cells(w, k),
-                                  .assigns = true,
-                                  .internal = true};
+    for (size_t k = 0; k < w->kinds; k++) {
+        if (sides_is_timed(s, w->first[k])) continue;
+        s->kind_of[s->shown_kinds] = k;
+        s->rule[own + s->shown_kinds++] = (rule){.name = "a switch",
+                                                 .kind = RULE_ROOT,
+                                                 .direction = -1,
+                                                 .first = s->own.functions + s->shown_count,
+                                                 .leaves = 1,
+                                                 .instances = switches_cells(w, k),
+                                                 .assigns = true,
+                                                 .internal = true};
+        for (size_t i = 0; i < switches_cells(w, k); i++) s->shown[s->shown_count++] = w->first[k] + i;
+    }
     s->supplied = s->own;
     s->supplied.ctx = s;
     s->supplied.rule = s->rule;
-    s->supplied.count = own + w->kinds;
-    s->supplied.functions = s->own.functions + w->count;
+    s->supplied.count = own + s->shown_kinds;
+    s->supplied.functions = s->own.functions + s->shown_count;
+    if (s->timed_count) s->supplied.next = sides_next_time, s->supplied.pass = sides_pass_times;
     s->supplied.values = values;
     s->supplied.rates = rates;
     s->supplied.rates_without_a = false;
@@ -499,11 +525,12 @@ const rules *sides_rules(const sides *s) { return &s->supplied; }
 bool sides_rebind(sides *s)
 {
     const binding b = {s->model->arrays, s->model->ints, s->model->pool};
-    tape *const tapes[] = {s->argument, s->position,    s->rate,         s->rounding,  s->force_rounding,
-                           s->least,    s->least_rates, s->hold,         s->hold_rate, s->hold_rounding,
-                           s->grip,     s->grip_rate,   s->grip_rounding};
+    tape *const tapes[] = {s->argument,       s->position, s->times,       s->rate,         s->rounding,
+                           s->force_rounding, s->least,    s->least_rates, s->hold,         s->hold_rate,
+                           s->hold_rounding,  s->grip,     s->grip_rate,   s->grip_rounding};
     for (size_t k = 0; k < sizeof tapes / sizeof *tapes; k++)
         if (tapes[k] && !tape_bind(tapes[k], &b)) return false;
+    sides_bind_timed(s);
     /* the periods of clocks depend on parameters */
     if (s->own.count) memcpy(s->rule, s->own.rule, s->own.count * sizeof *s->rule);
     return true;

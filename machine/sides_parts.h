@@ -1,7 +1,7 @@
-/* What the files of sides share. Each uses only those before it in this list: sides_switch.c (one switch: its side, its
- * parts, its tapes), sides_choose.c (how a switch chooses its side), sides_directions.c (how a direction r'/|r'|
- * chooses its side), sides.c (the functions of all switches, and how all of them change). `way` is 1 forward in time,
- * -1 backward. */
+/* What the files of sides share. Each uses only those before it in this list: sides_switch.c (one switch: its side,
+ * its parts, its tapes), sides_timed.c (switches that change at known times), sides_choose.c (how a switch chooses
+ * its side), sides_directions.c (how a direction r'/|r'| chooses its side), sides.c (the functions of all switches,
+ * and how all of them change). `way` is 1 forward in time, -1 backward. */
 #ifndef MACHINE_SIDES_PARTS_H
 #define MACHINE_SIDES_PARTS_H
 
@@ -16,6 +16,13 @@ struct sides {
     rules supplied, own;
     rule *rule;
     tape *argument, *rate, *rounding, *force_rounding, *least, *least_rates;
+    struct timed *timed; /* the searches in tables of the time alone (sides_timed.c) */
+    size_t timed_count;
+    tape *times;     /* their arguments, and the rates of these */
+    double *line;    /* what these are at t = 0 */
+    size_t *shown;   /* by function after those of the text: its switch; timed ones have none */
+    size_t *kind_of; /* by rule after those of the text: its kind */
+    size_t shown_count, shown_kinds;
     tape *position;                         /* the arguments without sides; NULL: no switch is a search in a table */
     tape *hold, *hold_rate, *hold_rounding; /* NULL: no switch can be held */
     tape *grip, *grip_rate, *grip_rounding; /* NULL: no switch can be held */
@@ -73,6 +80,16 @@ void sides_print(const sides *s, size_t k, char *out, size_t size);
 /* Returns MOTUS_SOLVE, with a message: `what` happens where switch k changes its side, and no motion leads on. */
 motus_status sides_refuse(const sides *s, size_t k, const char *what, double t, motus_error *err);
 motus_status sides_accelerate(sides *s, double t, double *x, double *v, motus_error *err);
+
+/* ---- sides_timed.c ---- */
+
+/* Finds the switches that change at known times, and computes these times again. False: no memory. */
+bool sides_find_timed(sides *, model *);
+void sides_bind_timed(sides *);
+bool sides_is_timed(const sides *, size_t k);
+/* See `next` and `pass` of core/rules.h. */
+double sides_next_time(void *sides, double way, double t, const double *x);
+int64_t sides_pass_times(void *sides, double way, double t, double *x);
 
 /* ---- sides_choose.c ---- */
 

@@ -152,7 +152,7 @@ static void too_fast_to_follow(void **state)
 static void refused_since_they_never_happen(void **state)
 {
     (void)state;
-    static const char *const never[] = {"floor(x) = 3", "sign(x - 2) = 0", "if(x > 2, 1, 0) = 1"};
+    static const char *const never[] = {"floor(x) = 3", "sign(x - 2) = 0", "if(x > 2, 2, 0) = 1"};
     for (size_t k = 0; k < sizeof never / sizeof *never; k++) {
         char text[256];
         motus_error err = motus_default_error();

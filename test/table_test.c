@@ -95,6 +95,47 @@ static void a_force_of_measured_numbers(void **state)
     motus_system_destroy(s);
 }
 
+/* The points are ends of steps, which nothing searches: each step costs the evaluations of its stages and no more, and
+ * no time is shifted from its point. */
+static void points_end_steps(void **state)
+{
+    (void)state;
+    static const char text[] = "T = [0, 1, 2.5, 3, 7]\nA = [0, 1, -1, 2, 0]\nx'' = -x + interp(%s, T, A)\n"
+                               "x(%s) = 1; x'(%s) = 0\n";
+    static const struct {
+        const char *argument, *from;
+        double until, ends[3];
+    } cases[] = {{"t", "0.5", 6, {1, 2.5, 3}},
+                 {"t", "6", 0.5, {3, 2.5, 1}},
+                 {"7 - t", "0.5", 6.5, {4, 4.5, 6}},
+                 {"(t - 1)/2", "2", 8, {3, 6, 7}}};
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        char model[400];
+        snprintf(model, sizeof model, text, cases[k].argument, cases[k].from, cases[k].from);
+        motus_system *s = given_text(model);
+        motus_run_def def = motus_default_run();
+        motus_error err = motus_default_error();
+        motus_run *r = NULL;
+        def.method = "dop853";
+        def.until = cases[k].until;
+        def.error = MOTUS_BARS_NONE;
+        must(motus_run_create(s, &def, &r, &err), &err, model);
+        size_t seen = 0;
+        while (!motus_run_done(r)) {
+            must(motus_run_step(r, 1, &err), &err, model);
+            seen += seen < 3 && motus_run_time(r) == cases[k].ends[seen];
+        }
+        assert_int_equal(seen, 3);
+        const motus_run_statistics of = motus_run_now(r);
+        assert_int_equal(of.switches, 3);
+        /* 12 stages a candidate; each part begins with one more, since its first stage is not the last one before */
+        if (of.evaluations > 12 * (of.steps + of.refused) + 4)
+            fail_msg("%g evaluations of %g steps", (double)of.evaluations, (double)of.steps);
+        motus_run_destroy(r);
+        motus_system_destroy(s);
+    }
+}
+
 /* Backward from where a run forward ended, back to the start. */
 static void backward(void **state)
 {
@@ -300,6 +341,7 @@ int main(void)
         cmocka_unit_test(values),
         cmocka_unit_test(a_force_of_measured_numbers),
         cmocka_unit_test(a_force_of_the_position),
+        cmocka_unit_test(points_end_steps),
         cmocka_unit_test(backward),
         cmocka_unit_test(set),
         cmocka_unit_test(outside),

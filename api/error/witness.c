@@ -94,9 +94,18 @@ static bool find_bends(motus_system *s)
     const size_t counts[] = {m->boundary_count, m->accel_count};
     struct bends *const b = &s->bends;
     if (!b->known)
-        b->known = verify_resolution(m, lists, counts, 2, true, &b->all, &b->sums) &&
-                   (s->problem.traits.smooth || verify_resolution(m, lists, counts, 2, false, &b->smooth, &b->sums));
+        b->known = verify_resolution(m, lists, counts, 2, VERIFY_SWITCHES, &b->all, &b->sums) &&
+                   (s->problem.traits.smooth ||
+                    (verify_resolution(m, lists, counts, 2, VERIFY_PLAIN, &b->smooth, &b->sums) &&
+                     verify_resolution(m, lists, counts, 2, VERIFY_LOCATED, &b->located, &b->sums)));
     return b->known;
+}
+
+/* Returns what may hide something from the steps of a run. */
+static resolution *bends_of(const motus_run *r)
+{
+    return r->home && !r->home->problem.traits.smooth ? r->home->bends.located
+                                                      : (r->home ? r->home : r->system)->bends.all;
 }
 
 static void forget_peak(witness *w) { w->empty[0] = w->empty[1] = w->peak = w->peak_end = NAN; }
@@ -132,7 +141,7 @@ motus_status witness_create(const motus_run *r, const differences *seen, bool ma
     if (!s->model || r->locate) return MOTUS_OK;
     if (!find_bends(s)) return fail(err, MOTUS_MEMORY, "no memory for a witness of the run");
     weight each;
-    const bool any = s->bends.all || (r->home && s->bends.sums);
+    const bool any = bends_of(r) || (r->home && s->bends.sums);
     motus_status status = any ? choice_weigh(s, &each, err) : MOTUS_OK;
     if (status != MOTUS_OK || !any) return status;
     witness *const w = make(r, seen);
@@ -146,7 +155,7 @@ motus_status witness_create(const motus_run *r, const differences *seen, bool ma
     w->most_spared = (many ? SPARED_OF_MANY : SPEND_SPARED) / w->operations;
     w->events = r->events != NULL;
     w->kinked = w->inner->kinked = !s->problem.traits.smooth;
-    w->bends = w->inner->bends = s->bends.all;
+    w->bends = w->inner->bends = bends_of(r);
     w->smooth = w->inner->smooth = s->bends.smooth;
     w->covered = w->inner->covered = s->bends.sums;
     w->inner->probes = true, w->inner->steady = false;
@@ -189,7 +198,7 @@ double witness_looked(const motus_run *r)
 {
     const struct bends *const b = r->home ? &r->home->bends : &r->system->bends;
     const witness *const w = r->bars ? r->bars->witness : NULL;
-    if (!w) return b->known && !b->all && !(r->home && b->sums) ? 1 : NAN;
+    if (!w) return b->known && !bends_of(r) && !(r->home && b->sums) ? 1 : NAN;
     return w->steps ? (double)w->looked / (double)w->steps : 1;
 }
 

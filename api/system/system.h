@@ -46,9 +46,10 @@ struct motus_system {
     bool poles_known;
     struct bends {
         bool known; /* a run had a witness */
-        /* what in the force can hide between points, on all sides and on one side of its switches; NULL: nothing */
-        resolution *all, *smooth;
-        bool sums; /* `all` and `smooth` leave out switches within sums */
+        /* what in the force can hide between points: on all sides of its switches, on all but those of known times, and
+         * on one side; NULL: nothing */
+        resolution *all, *located, *smooth;
+        bool sums; /* these leave out switches within sums */
     } bends;
     weight weight; /* of the equations; valid if `weighed` */
     bool weighed;

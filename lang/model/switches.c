@@ -163,6 +163,12 @@ bool switches_is(const graph *g, const graph_node *n)
     }
 }
 
+bool switches_timed(graph *g, const graph_node *n)
+{
+    return n->op == OP_FIND && !(g->nodes[n->a].deps & (DEP_STATE | DEP_D | DEP_LEVELS)) &&
+           graph_degree(g, n->a, DEP_TIME) == 1;
+}
+
 /* Returns whether an operation compares two operands: its argument is their difference, its side 1 or 0. */
 static bool compares(operation op)
 {

@@ -65,6 +65,8 @@ size_t switches_cells(const switches *, size_t kind);
 size_t switches_kind(const switches *, size_t k);
 model_shape switches_shape(const model *, const switches *, size_t kind);
 
+/* Returns whether a switch changes at times that are known beforehand: it is the search in a table by a + b t. */
+bool switches_timed(graph *, const graph_node *);
 /* Return whether a node is a switch, and what one with the operands a and b compares with 0, or takes the integer part
  * of (switches_counts). */
 bool switches_is(const graph *, const graph_node *);

@@ -48,7 +48,7 @@ static node switched_at(graph *g, const graph_node *n, bool told)
 }
 
 /* Adds the switches of one output to a list, as outputs that go into no place; `to` NULL: counts them. */
-static bool add_switches(model *m, const output *o, output *to, size_t *count, bool *sums)
+static bool add_switches(model *m, const output *o, verify_switches which, output *to, size_t *count, bool *sums)
 {
     graph *g = m->graph;
     graph_walk w;
@@ -57,6 +57,7 @@ static bool add_switches(model *m, const output *o, output *to, size_t *count, b
     if (!graph_order(g, &o->value, 1, MOVING, true, &w)) return false;
     for (uint32_t k = 0; k < w.count; k++) {
         const graph_node n = g->nodes[w.nodes[k]];
+        if (which == VERIFY_LOCATED && switches_timed(g, &n)) continue;
         if (!to) {
             *count += counts(g, &n, told);
             continue;
@@ -78,19 +79,19 @@ static bool add_switches(model *m, const output *o, output *to, size_t *count, b
     return true;
 }
 
-bool verify_resolution(model *m, const output *const lists[], const size_t counts[], size_t n, bool switches,
+bool verify_resolution(model *m, const output *const lists[], const size_t counts[], size_t n, verify_switches which,
                        resolution **out, bool *sums)
 {
     size_t plain = 0, room = 0, count = 0;
     for (size_t l = 0; l < n; l++)
         for (size_t k = 0; k < counts[l]; k++, plain++)
-            if (switches && !add_switches(m, &lists[l][k], NULL, &room, sums)) return false;
+            if (which && !add_switches(m, &lists[l][k], which, NULL, &room, sums)) return false;
     output *all = arena_room(m->arena, (plain + room + 1) * sizeof *all);
     if (!all) return false;
     for (size_t l = 0; l < n; l++)
         for (size_t k = 0; k < counts[l]; k++) all[count++] = lists[l][k];
-    for (size_t k = 0; switches && k < plain; k++)
-        if (!add_switches(m, &all[k], all, &count, sums)) return false;
+    for (size_t k = 0; which && k < plain; k++)
+        if (!add_switches(m, &all[k], which, all, &count, sums)) return false;
     return resolution_create(m, all, count, count > plain, out);
 }
 
@@ -100,7 +101,7 @@ bool verify_between_make(model *m)
     if (!b || !m->verify->bounded) return b != NULL;
     const output *const lists[] = {m->exact, m->boundary, m->accel};
     const size_t counts[] = {m->exact_count, m->boundary_count, m->accel_count};
-    return verify_resolution(m, lists, counts, 3, true, &b->force, &b->sums) &&
+    return verify_resolution(m, lists, counts, 3, VERIFY_SWITCHES, &b->force, &b->sums) &&
            resolution_create_poles(m, m->exact, m->exact_count, &b->poles);
 }
 

@@ -87,7 +87,7 @@ static bool make_resolution(model *m)
     lists[1] = m->accel, counts[1] = m->accel_count;
     for (uint32_t i = 0; i < m->definition_count; i++)
         if (m->verify->rate[i]) lists[n] = m->definitions[i].outputs, counts[n++] = m->definitions[i].output_count;
-    return verify_resolution(m, lists, counts, n, true, &m->verify->along, &sums);
+    return verify_resolution(m, lists, counts, n, VERIFY_SWITCHES, &m->verify->along, &sums);
 }
 
 bool verify_invariant_make(model *m)
