@@ -75,8 +75,8 @@ typedef struct verify_fault {
 
 /* Which switches count: none; all; all but those at whose times, known beforehand, a located run ends its steps. */
 typedef enum verify_switches { VERIFY_PLAIN, VERIFY_SWITCHES, VERIFY_LOCATED } verify_switches;
-/* The resolution of lists of outputs, those that go into x and v in the first list, and of where switches change; *out NULL: there is nothing to resolve. *sums becomes true where switches within sums are left out.
- * False: no memory. */
+/* The resolution of lists of outputs, those that go into x and v in the first list, and of where switches change; *out
+ * NULL: there is nothing to resolve. *sums becomes true where switches within sums are left out. False: no memory. */
 bool verify_resolution(model *, const output *const lists[], const size_t counts[], size_t n, verify_switches,
                        resolution **out, bool *sums);
 bool verify_between_make(model *);
