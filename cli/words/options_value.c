@@ -115,7 +115,7 @@ static const char *const wanted[] = {
     [TOLERANCE] = "a number above 0, or one as \"1e-6 absolute\"",
     [ACCURACIES] = "a range of numbers above 0, as 1e-3:1e-12",
     [COUNT] = "an integer above 0",
-    [SEED] = "an integer",
+    [SEED] = "an integer, 0 or above",
     [EVERY] = "a time above 0, or a count as \"10 steps\"",
     [STATES] = "a time with its unit, 10min, 90s, 2h, or a count as \"1e6 steps\"",
     [NAMED] = "NAME=VALUE",

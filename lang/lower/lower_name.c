@@ -91,6 +91,7 @@ value lower_component(lowering *l, value v, const tree *number, const tree *whol
 static void place_error(lowering *l, const tree *t, const char *is)
 {
     COMPLAIN(l, &t->at, "%s cannot depend on %s: %s is %s", l->what, is, t->name, is);
+    if (!strcmp(l->what, "until")) HINT(l, "to end the run where something happens write: when %s < 0: stop", t->name);
     if (l->place == PLACE_CONSTANT && l->what && !strcmp(l->what, "an initial value"))
         HINT(l, "an initial value may use parameters and other initial values, such as %s(0)", t->name);
 }

@@ -172,6 +172,9 @@ static value lower_power(lowering *l, const tree *t)
     if (failed(l)) return wrong(l);
     if (b.count) {
         COMPLAIN(l, &t->at, "a vector has no powers");
+        char y[80];
+        if (exponent->kind != TREE_NUMBER)
+            HINT(l, "the product of two vectors is cross(%s, %s)", quote(l, &base->at, x), quote(l, &exponent->at, y));
         HINT(l, "write |%s|^2, which is dot(%s, %s)", quote(l, &base->at, x), x, x);
         return wrong(l);
     }

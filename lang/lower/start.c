@@ -273,6 +273,10 @@ bool start_state(model *m, model_state *s)
         if (!s->shaped) {
             source_complain(&m->source, MOTUS_NAME, &s->at, "the initial value %s%s(%g) is missing", s->name,
                             s->dims ? "[…]" : "", m->start);
+            for (uint32_t i = s->line; i && s->dims == 0; i = m->statements.item[i - 1].next)
+                if (m->statements.item[i - 1].kind == STATEMENT_DEFINITION) /* x[0] = 1 */
+                    source_hint(&m->source, "an initial value is written with round brackets: %s(%g) = …", s->name,
+                                m->start);
             source_hint(&m->source, "write %s%s(%g) = … (its shape, number or vector, is the shape of %s)", s->name,
                         s->dims ? "[i]" : "", m->start, s->name);
             if (s->dims == 0) source_repair(&m->source, "", "%s(%g) = 1", s->name, m->start);

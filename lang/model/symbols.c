@@ -56,7 +56,7 @@ static bool known(const model *m, const char *name, const char *const *more, uin
     for (uint32_t i = 0; i < more_count; i++)
         if (!strcmp(name, more[i])) return true;
     symbol s = symbols_find(m, name);
-    return s.state || s.definition || s.function || !strcmp(name, m->time) || !strcmp(name, "pi");
+    return s.state || s.definition || s.function || !strcmp(name, m->time) || !strcmp(name, "pi") || !strcmp(name, "π");
 }
 
 /* Hints that mg, where m and g are names, is no product without a blank [1]. */

@@ -199,6 +199,11 @@ static bool check_orphans(model *m)
                     source_hint(&m->source, "did you mean %s?", m->states[k].name);
                     source_repair(&m->source, s->name, "%s", m->states[k].name);
                 }
+            char at[80];
+            for (uint32_t k = 0; s->kind == STATEMENT_START && k < m->state_count && s->name[0] == 'v'; k++)
+                if (m->states[k].order == 2)
+                    source_hint(&m->source, "the velocity of %s at the start is %s'(%s) = …", m->states[k].name,
+                                m->states[k].name, quote(m, &s->applied->item[1]->at, at));
             source_hint(&m->source, "write one: %s'' = …", s->name);
             return false;
         }

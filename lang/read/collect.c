@@ -56,6 +56,9 @@ static bool add_definition(model *m, const statement *s)
         source_complain(&m->source, MOTUS_NAME, &s->name_at,
                         "%s has an equation of motion in line %d and cannot be defined too", s->name,
                         source_line(&m->source, &known.state->at));
+        if (s->value->kind == TREE_NAME && s->value->primes)
+            source_hint(&m->source, "its equation makes %s a state: write %s' = %s here, and %s(0) in place of %s'(0)",
+                        s->name, s->value->name, s->name, s->name, s->value->name);
         return false;
     }
     if (known.definition) {
@@ -328,8 +331,13 @@ static bool no_equation(model *m)
     if (meant)
         source_hint(s, "this line defines %s; an equation has its derivative on the left: %s = %s", meant->name,
                     source_excerpt(s, &meant->value_at, text, sizeof text), meant->name);
-    else
-        source_hint(s, "write one: x'' = -x");
+    for (uint32_t i = 0; i < m->statements.count; i++)
+        if (m->statements.item[i].kind == STATEMENT_START) {
+            const char *name = m->statements.item[i].name;
+            source_hint(s, "%s has an initial value: write %s'' = … for its acceleration, or %s' = … for its rate",
+                        name, name, name);
+        }
+    source_hint(s, "write one: x'' = -x");
     return false;
 }
 

@@ -6,6 +6,8 @@
 #include "lang/model/evaluate.h"
 #include "lang/model/symbols.h"
 
+#include <math.h>
+
 typedef struct outputs {
     output **item;
     size_t *count, room, least; /* least: the room at first */
@@ -42,6 +44,12 @@ static bool part(model *m, const statement *s, const model_state *state, const l
         return false;
     for (int k = 0; into && k < (v.count ? v.count : 1); k++) {
         o.value = v.item[k];
+        if (graph_at(m->graph, o.value)->op == OP_CONST && !isfinite(graph_at(m->graph, o.value)->value)) {
+            source_complain(&m->source, MOTUS_ARGUMENT, &s->value->at, "the right side of this equation is %s, always",
+                            isnan(graph_at(m->graph, o.value)->value) ? "not a number" : "infinite");
+            source_hint(&m->source, "look for a division by 0, or a root or logarithm of a negative number");
+            return false;
+        }
         o.to.array = (uint16_t)(m->block[BLOCK_A] + state->array + k);
         if (!add(m, into, &o)) return false;
     }

@@ -9,6 +9,7 @@
 #include "base/near.h"
 #include "lang/model/kept.h"
 #include "lang/model/symbols.h"
+#include "lang/text/foreign.h"
 
 #include <string.h>
 
@@ -113,6 +114,19 @@ static const char *written_here(const char *name)
                                             {"rint", "floor(x + 1/2)"},
                                             {"ceil", "-floor(-x)"},
                                             {"trunc", "sign(x) floor(|x|)"},
+                                            {"der", "x', and the equation x' = …"},
+                                            {"ddt", "x', and the equation x' = …"},
+                                            {"grad", "diff(U(r), r), where U(r) = … is a function"},
+                                            {"integral", "s for an integral, with s' = …, a first-order variable"},
+                                            {"integrate", "s for an integral, with s' = …, a first-order variable"},
+                                            {"ifelse", "if(condition, a, b)"},
+                                            {"where", "if(condition, a, b)"},
+                                            {"piecewise", "if(condition, a, b)"},
+                                            {"Piecewise", "if(condition, a, b)"},
+                                            {"clip", "min(max(x, a), b)"},
+                                            {"clamp", "min(max(x, a), b)"},
+                                            {"rem", "mod(a, b)"},
+                                            {"fmod", "mod(a, b)"},
                                             {"heaviside", "if(x > 0, 1, 0)"},
                                             {"Heaviside", "if(x > 0, 1, 0)"},
                                             {"ln", "log(x)"},
@@ -160,6 +174,7 @@ static bool complain_name(finding *f, const tree *t)
             source_hint(s, "it is an event: count(%s), time(%s, last), at(%s, last, x)", t->name, t->name, t->name);
             return false;
         }
+    if (foreign_name(s, &t->at)) return false;
     if (strlen(t->name) == 2 && t->name[0] == 'd')
         source_hint(s, "derivatives are written with primes: %s'", t->name + 1);
     if (!strcmp(t->name, "e")) source_hint(s, "for the exponential write exp(…)");
@@ -252,6 +267,7 @@ static bool complain_call(finding *f, const tree *t)
     source_complain(s, MOTUS_NAME, &t->at,
                     here ? "%s is not a function of the language" : "%s is neither a function nor defined", name);
     if (here) source_hint(s, "write %s", here);
+    if (foreign_name(s, &t->item[0]->at)) return false;
     symbols_suggest_call(f->model, name);
     return false;
 }

@@ -176,15 +176,29 @@ static token wrong_character(lexer *l, uint32_t from, uint32_t c, uint32_t size)
         {0x2211, 0x2211, sign, "write sum(i = 1..N: …)"},
         {';', ';', "; ends a statement, and here a bracket is open",
          "close the bracket; a comma stands between components, arguments and conditions"},
-        {'{', '{', "there are no braces in the language", "group with ( )"},
+        {'{', '{', "there are no braces in the language",
+         "group with ( ), and choose by if(condition, a, b); what an event does stands behind a colon"},
         {'}', '}', "there are no braces in the language", "group with ( )"},
         {'&', '&', "there is no & in the language", "write: and"},
-        {'!', '!', "! alone means nothing", "write != for unequal, not for the logical not"},
+        {'!', '!', "! alone means nothing", "write != for unequal, not for the logical not; a comment begins with #"},
         {0xB0, 0xB0, "angles are in radians", "write 30 pi/180 for 30 degrees"},
         {'\\', '\\', "the character \\ has no meaning here", "write Greek letters as they are, ω, or by name, omega"},
-        {'%', '%', "the character % has no meaning here", "a comment begins with #"}};
+        {'?', '?', "the character ? has no meaning here", "write if(condition, a, b)"},
+        {'$', '$', "the character $ has no meaning here", "write formulas in plain text: x'' = -x"},
+        {'@', '@', "the character @ has no meaning here", "a function is written f(t, x) = …"},
+        {'~', '~', "the character ~ has no meaning here", "write: not"},
+        {0x2202, 0x2202, "the character ∂ has no meaning here", "write diff(U(x), x), where U(x) = … is a function"},
+        {0x2207, 0x2207, "the character ∇ has no meaning here", "write diff(U(r), r), where U(r) = … is a function"},
+        {0x222B, 0x222B, "the character ∫ has no meaning here", "an integral is a first-order variable: s' = …"},
+        {'%', '%', "the character % has no meaning here", "a comment begins with #; a remainder is mod(a, b)"}};
     source *s = l->source;
     const span at = {l->text, from, from + (size ? size : 1)};
+    const char next = from + size < s->texts[l->text].length ? s->texts[l->text].bytes[from + size] : 0;
+    if (c == 0xB0 && (next == 'C' || next == 'F')) {
+        source_complain(s, MOTUS_SYNTAX, &at, "a unit is no part of a number");
+        source_hint(s, "write it in a comment, behind #");
+        return stop(l, from);
+    }
     for (size_t i = 0; size && i < sizeof known / sizeof *known; i++)
         if (c >= known[i].first && c <= known[i].last) {
             source_complain(s, MOTUS_SYNTAX, &at, "%s", known[i].what);

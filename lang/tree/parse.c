@@ -52,7 +52,7 @@ static bool juxtaposes(const parser *p)
         for (size_t i = 0; i < sizeof words / sizeof *words; i++)
             if (word(p, words[i])) return false;
         if (p->error && (word(p, "absolute") || word(p, "relative"))) return false;
-        return !(p->when && event_word(p));
+        return !(p->when && (event_word(p) || word(p, "then") || word(p, "do")));
     }
     return is(p, '(') || (is(p, '|') && p->bars == 0) || (is(p, '[') && p->token.blank) ||
            p->token.kind == TOKEN_NUMBER;
@@ -80,9 +80,13 @@ static bool wrong_juxtaposition(parser *p, const tree *product)
     const tree *left = last_factor(product);
     if (p->token.kind == TOKEN_NUMBER) {
         span at = {left->at.text, left->at.from, p->token.at.to};
+        const bool list = p->lexer.depth > 0 && p->lexer.closer[p->lexer.depth - 1] == ']';
         quote(p, &left->at, a);
         quote(p, &p->token.at, b);
         COMPLAIN(p, &at, "a number comes first in a product: %s %s is not read", a, b);
+        if (list) HINT(p, "the entries of a list have commas between them: [1, 2]; a matrix is [[1, 2], [3, 4]]");
+        if (p->when && left->kind == TREE_NAME && product != left)
+            HINT(p, "an event is an equation or a condition: when x = 0: …, when x > 0: …");
         if (quotient(product))
             HINT(p, "write %s/%s*%s or %s/(%s*%s)", quote(p, &product->item[0]->at, c), a, b, c, a, b);
         else if (left->kind != TREE_NUMBER)
@@ -95,6 +99,7 @@ static bool wrong_juxtaposition(parser *p, const tree *product)
     }
     if (is(p, '[')) {
         COMPLAIN(p, &p->token.at, "an index stands directly behind the name");
+        if (left->kind == TREE_NUMBER) HINT(p, "a unit is no part of a number: write it in a comment, behind #");
         return true;
     }
     return false;
@@ -113,13 +118,26 @@ static bool glued_to_divisor(parser *p, const tree *product, const tree *right)
     return false;
 }
 
+/* Hints that the remainder of a, `a mod b`, is mod(a, b). */
+static void hint_remainder(parser *p, const tree *a, const span *sign)
+{
+    char x[80], y[80];
+    const span after = foreign_after(p->source, sign);
+    const bool bracket = after.to > after.from + 1 && p->source->texts[after.text].bytes[after.from] == '(';
+    quote(p, &a->at, x);
+    HINT(p, "write mod(%s, %s)", x, quote(p, &(span){after.text, after.from + bracket, after.to - bracket}, y));
+}
+
 /* Multiplies t by a factor without a sign between them. */
 static tree *parse_beside(parser *p, tree *t)
 {
     if (wrong_juxtaposition(p, t)) return t;
     const tree *previous = last_factor(t);
+    const bool remainder = word(p, "mod");
+    const span sign = p->token.at;
     const bool blank = p->token.blank, opens = is(p, '('), named = previous->kind == TREE_NAME && !previous->bracketed;
     tree *right = parse_power(p);
+    if (failed(p) && remainder) hint_remainder(p, previous, &sign);
     if (failed(p) || (quotient(t) && !blank && !glued_to_divisor(p, t, right))) return t;
     t = two(p, TREE_MULTIPLY, t, right);
     t->blank_product = named && opens && blank && right->bracketed;
@@ -182,7 +200,7 @@ static tree *parse_terms(parser *p)
         skip_lines(p);
         if (is(p, '+') || is(p, '-')) {
             COMPLAIN(p, &p->token.at, "two signs in a row");
-            HINT(p, "use a bracket: a + (-b)");
+            HINT(p, "use a bracket: a + (-b); a comment begins with #");
             return t;
         }
         tree *right = parse_product(p);

@@ -18,10 +18,16 @@ static bool parse_loop(parser *p, loop *l)
 {
     if (p->token.kind != TOKEN_NAME) {
         unexpected(p, "the name of an index");
+        HINT(p, "write i = 1..N; values for parts of the time are chosen by if(t < 5, a, b)");
         return false;
     }
     l->at = p->token.at;
     l->name = copy_name(p, &p->token.at);
+    if (!strcmp(l->name, "t")) {
+        COMPLAIN(p, &l->at, "t is a word of the language and cannot be an index");
+        HINT(p, "take i, j, k …; values for parts of the time are chosen by if(t < 5, a, b)");
+        return false;
+    }
     if (words_reserved(l->name) || words_function(l->name) >= 0) {
         COMPLAIN(p, &l->at, "%s is a word of the language and cannot be an index", l->name);
         HINT(p, "take i, j, k …");
@@ -163,11 +169,17 @@ static tree *parse_call(parser *p, span name)
     char argument[80];
     if (failed(p)) return nothing(p);
     if (!is(p, '(')) {
-        if (is(p, '^')) {
+        if (operation == CALL_IF) {
+            COMPLAIN(p, &name, "if has its condition and both values in one bracket");
+            foreign_choice(p->source, &name);
+        } else if (is(p, '^')) {
             lexer ahead = p->lexer;
             token power = lex_next(&ahead);
             COMPLAIN(p, &name, "%s needs its argument in brackets", text);
             HINT(p, "write %s(x)^%s", text, power.kind == TOKEN_NUMBER ? quote(p, &power.at, argument) : "2");
+        } else if (arity(operation) == 2 && operation < OPERATIONS) {
+            COMPLAIN(p, &name, "%s has its arguments in brackets", text);
+            if (operation != OP_MOD) HINT(p, "write %s(a, b)", text); /* a mod b: parse.c */
         } else if (p->token.kind == TOKEN_NAME || p->token.kind == TOKEN_NUMBER) {
             COMPLAIN(p, &name, "%s needs its argument in brackets", text);
             HINT(p, "write %s(%s)", text, quote(p, &p->token.at, argument));
@@ -196,6 +208,7 @@ static tree *parse_call(parser *p, span name)
     if (wanted < 0 ? t->count < (uint32_t)-wanted : t->count != (uint32_t)wanted) {
         COMPLAIN(p, &t->at, "%s takes %s%d argument%s, not %u", text, wanted < 0 ? "at least " : "",
                  wanted < 0 ? -wanted : wanted, wanted == 1 ? "" : "s", t->count);
+        if (operation == CALL_IF && t->count == 1) foreign_choice(p->source, &name);
         if (operation == CALL_IF) HINT(p, "write if(condition, value if true, value if false)");
         if (operation == CALL_DIFF) HINT(p, "write diff(V(x), x): what is differentiated, then by what");
     }
@@ -217,6 +230,19 @@ static tree *component(parser *p, tree *of, tree *number, span at)
     return t;
 }
 
+/* Hints at np.sin(x) and r'.r', of which the present token follows the point. */
+static void hint_product(parser *p, const tree *before)
+{
+    char a[80], b[80];
+    const span after = foreign_after(p->source, &(span){p->token.at.text, p->token.at.from, p->token.at.from});
+    quote(p, &before->at, a);
+    quote(p, &p->token.at, b);
+    if (words_function(b) >= 0)
+        HINT(p, "write %s(…), without %s", b, a);
+    else if (p->token.kind == TOKEN_NAME)
+        HINT(p, "the product of two vectors is written dot(%s, %s)", a, quote(p, &after, b));
+}
+
 /* components = { "." ("x" | "y" | "z") | "[" inside "]" } */
 static tree *parse_components(parser *p, tree *t)
 {
@@ -231,6 +257,7 @@ static tree *parse_components(parser *p, tree *t)
                 else
                     COMPLAIN(p, &p->token.at, "the components of a vector are .x .y .z or [1], [2] …, not .%s",
                              quote(p, &p->token.at, text));
+                hint_product(p, t);
                 return t;
             }
             tree *number = grow(p, TREE_NUMBER, &p->token.at);
@@ -253,9 +280,31 @@ static tree *parse_components(parser *p, tree *t)
     return t;
 }
 
+/* Complains about f(), and x(t = 0). */
+static bool applied_wrongly(parser *p, const tree *name)
+{
+    char a[80], b[80];
+    lexer ahead = p->lexer;
+    const token first = lex_next(&ahead), second = failed(p) ? first : lex_next(&ahead), third = lex_next(&ahead);
+    if (failed(p)) return true;
+    quote(p, &name->at, a);
+    if (first.kind == TOKEN_CHARACTER && first.character == ')') {
+        COMPLAIN(p, &p->token.at, "this bracket is empty");
+        HINT(p,
+             strncmp(a, "rand", 4) ? "a quantity without arguments is written %s"
+                                   : "a force has no random numbers: it is a function of the state and the time",
+             a);
+    } else if (first.kind == TOKEN_NAME && second.kind == TOKEN_CHARACTER && second.character == '=') {
+        COMPLAIN(p, &second.at, "the bracket of an initial value holds the start alone");
+        HINT(p, "write %s(%s)", a, quote(p, &third.at, b));
+    }
+    return failed(p);
+}
+
 /* applied = name "(" inside { "," inside } ")": x(0), V(a, b) [4, 16] */
 tree *parse_applied(parser *p, tree *name)
 {
+    if (applied_wrongly(p, name)) return name;
     tree *t = grow(p, TREE_APPLY, &name->at);
     add_item(p, t, name);
     return parse_items(p, t, ')', "at the end of the bracket");

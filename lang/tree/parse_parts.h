@@ -5,6 +5,7 @@
 
 #include "lang/base/limits.h"
 #include "lang/base/operation.h"
+#include "lang/text/foreign.h"
 #include "lang/text/lex.h"
 #include "lang/tree/tree.h"
 

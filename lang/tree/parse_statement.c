@@ -9,13 +9,20 @@ static void parse_end(parser *p, int line)
 {
     if (failed(p) || p->token.kind == TOKEN_NEWLINE || p->token.kind == TOKEN_END) return;
     char text[80], before[80];
-    if (is(p, ',') && p->last.kind == TOKEN_NUMBER) {
+    if (is(p, ',')) {
         lexer ahead = p->lexer;
         token next = lex_next(&ahead);
         COMPLAIN(p, &p->token.at, "the statement ends before this comma");
-        if (next.kind == TOKEN_NUMBER)
+        if (next.kind == TOKEN_NUMBER && p->last.kind == TOKEN_NUMBER)
             HINT(p, "a decimal number is written with a point: %s.%s; a vector in brackets: (%s, %s)",
                  quote(p, &p->last.at, before), quote(p, &next.at, text), before, text);
+        if (next.kind == TOKEN_NAME) HINT(p, "one statement a line, or ; between them, not a comma");
+        HINT(p, "a vector stands in brackets: (1, 2)");
+        return;
+    }
+    if (is(p, '.')) {
+        COMPLAIN(p, &p->token.at, "a point alone is no sign");
+        HINT(p, "a product is written a b or a*b, the product of two vectors dot(a, b)");
         return;
     }
     if (is(p, '=')) {
@@ -33,6 +40,7 @@ static void parse_value(parser *p, statement *s)
 {
     if (!is(p, '=')) {
         unexpected(p, "=");
+        if (p->last.kind == TOKEN_CHARACTER) HINT(p, "write = alone");
         return;
     }
     advance(p);
@@ -70,8 +78,12 @@ static void parse_method(parser *p, statement *s)
     while (end > from && (text->bytes[end - 1] == ' ' || text->bytes[end - 1] == '\t' || text->bytes[end - 1] == '\r'))
         end--;
     s->at = (span){p->lexer.text, from, end};
-    if (from == end || text->bytes[from] == '=' || !plain_text(text->bytes + from, end - from)) {
+    const bool equals = from < end && text->bytes[from] == '=';
+    if (from == end || equals || !plain_text(text->bytes + from, end - from)) {
         COMPLAIN(p, &s->at, "the name of a method expected");
+        while (equals && from < end && strchr("= ", text->bytes[from])) from++;
+        char name[80];
+        if (equals && from < end) HINT(p, "write: method %s", quote(p, &(span){s->at.text, from, end}, name));
         HINT(p, "write: method verlet");
         return;
     }
@@ -113,6 +125,12 @@ static void parse_setting(parser *p, statement *s)
 /* Complains about other ways to write a derivative: dx/dt, d2x/dt2 … */
 static bool parse_leibniz(parser *p, const statement *s)
 {
+    static const char *const words[] = {"der", "ddt", "deriv", "derivative", "Derivative"};
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (!strcmp(s->name, words[i]) && is(p, '(')) {
+            COMPLAIN(p, &s->at, "derivatives are written with primes");
+            return foreign_line(p->source, &s->name_at);
+        }
     if (s->name[0] != 'd' || !(is(p, '/') || is(p, '^'))) return false;
     const struct source_text *text = &p->source->texts[s->at.text];
     uint32_t end = s->name_at.from;
@@ -182,6 +200,12 @@ static void parse_left(parser *p, statement *s)
         left->count = left->index_count = s->index_count;
         s->applied = parse_applied(p, left);
         if (failed(p)) return;
+        const tree *start = s->applied->item[1];
+        if (s->primes && start->kind == TREE_NAME && !strcmp(start->name, "t")) {
+            COMPLAIN(p, &start->at, "a derivative has no argument");
+            HINT(p, "write %s%s = …; the argument (t) is left out", s->name, s->primes == 1 ? "'" : "''");
+            return;
+        }
         s->kind = STATEMENT_START;
         if (p->token.kind == TOKEN_PRIMES) {
             COMPLAIN(p, &p->token.at, "primes follow the name, before the bracket");
@@ -204,9 +228,23 @@ static void parse_left(parser *p, statement *s)
     } else if (is(p, '.')) {
         COMPLAIN(p, &p->token.at, "a component cannot be given alone");
         HINT(p, "give the whole vector: %s = (…, …)", s->name);
+    } else if (s->primes && is(p, '[')) {
+        const char *const primes = s->primes == 1 ? "'" : "''";
+        lexer ahead = p->lexer;
+        const token inside = lex_next(&ahead);
+        COMPLAIN(p, &p->token.at, "an index stands before the primes, and an initial value has its start in ( )");
+        if (spelled(p, &inside, "t"))
+            HINT(p, "write %s%s without an argument, and one = in an equation", s->name, primes);
+        HINT(p, "write %s%s(0) = …", s->name, primes);
     } else if (p->token.kind == TOKEN_EQ || !parse_sum_left(p, s)) {
         char near[80];
+        lexer ahead = p->lexer;
+        const token next = failed(p) || !is(p, '*') ? p->token : lex_next(&ahead);
         unexpected(p, "=");
+        if (p->token.kind == TOKEN_EQ || is(p, ':')) HINT(p, "write one = alone");
+        if (foreign_line(p->source, &s->name_at) ||
+            (next.kind == TOKEN_NAME && strcmp(s->name, "stop") && foreign_line(p->source, &next.at)))
+            return;
         if ((p->token.kind == TOKEN_NUMBER || p->token.kind == TOKEN_NAME) &&
             words_nearest_statement(s->name, near, sizeof near))
             HINT(p, "did you mean %s?", near);

@@ -156,6 +156,7 @@ static void parse_actions(parser *p, when *w)
     action **next = &w->actions;
     if (!is(p, ':')) {
         unexpected(p, ": before what happens");
+        if (word(p, "then") || word(p, "do")) HINT(p, "write a colon in its place: when y < 0: y' = -y'");
         if (w->left && parse_action(p, &w->left->at)) HINT(p, "%s", PARSE_COMMAS);
         HINT(p, "write when y = 0: record, or when y = 0 falling as bounce: y' = -y'");
         return;
