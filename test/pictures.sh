@@ -37,6 +37,9 @@ that "... the axes tell units" eval "says \"'y (m)'\" '$script' && says \"'t (s)
 that "... no quantities" lacks "E" <(grep -v END "$script")
 draws "by a method of first order" run "$ball" --method explicit-euler --error none
 that "... from state to state in straight lines" [ "$(count 0 0)" = 9 ]
+sed 's/^method/exact y = 1 - g t^2\/2\nmethod/' "$ball" >"$place/exact.motus"
+draws "... with the exact motion" run "$place/exact.motus" --method explicit-euler --error none
+that "... which stays smooth" eval "[ $(count 0 0) = 9 ] && [ $(count 0 2) -gt 1000 ]"
 draws "in a thousand steps" run "$ball" --step 0.001
 that "... there are no dots" lacks "'steps'" "$script"
 draws "by steps that adapt" run "$ball" --method dop853
@@ -56,6 +59,9 @@ draws "a ball on a floor" run "$place/floor.motus" --events "$place/events.csv"
 marks() { grep -c "^$1," "$place/events.csv"; }
 that "... its bounces are marks, and its tops others" eval "[ $(marks bounce) -gt 0 ] && [ $(count 0 2) = $(marks bounce) ] && [ $(count 0 3) = $(marks top) ] && [ $(keys 'bounce|top') = 2 ]"
 that "... on the floor" eval "block 0 2 | awk '{ if (\$2 > 1e-9 || \$2 < -1e-9) exit 1 }'"
+sed 's/, record//; /top/d' "$place/floor.motus" >"$place/quiet.motus"
+draws "events that record nothing" run "$place/quiet.motus"
+that "... are marks without a name" eval "[ $(keys events) = 1 ] && [ $(count 0 2) = $(marks bounce) ]"
 draws "a billiard's thousand hits" run models/billiard.motus --until 1832 --error none
 that "... are no marks" lacks "'hit'" "$script"
 

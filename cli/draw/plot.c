@@ -231,7 +231,7 @@ static void put_start(FILE *out, const plot_panel *p, const plot_curve *c, const
 {
     enum { FROM, TO };
     const double *const axes[] = {c->x, c->y, c->z};
-    const double at[] = {[FROM] = 0.12, [TO] = 0.14};
+    const double at[] = {[FROM] = 0.12, [TO] = 0.15};
     double size[3] = {0}, way = 0;
     size_t found[2] = {0, 0};
     for (size_t a = 0; a < 3 && axes[a]; a++) {
@@ -243,6 +243,7 @@ static void put_start(FILE *out, const plot_panel *p, const plot_curve *c, const
         }
         size[a] = r.high - r.low;
     }
+    for (size_t a = 0; p->equal && a < 3; a++) size[a] = fmax(size[0], fmax(size[1], size[2]));
     for (size_t i = 1; i < c->count && !found[TO]; i++) {
         double moved = 0;
         for (size_t a = 0; a < 3 && axes[a]; a++)
@@ -256,12 +257,13 @@ static void put_start(FILE *out, const plot_panel *p, const plot_curve *c, const
     fprintf(out, "set label %d '' at ", ++*arrows);
     put_place(out, c, 0);
     fprintf(out, " point pt 6 ps 1.2 lw 2 lc rgb '%s' front\n", s->colour);
-    if (!found[TO] || found[FROM] == found[TO]) return;
+    if (!found[TO]) return;
+    if (found[FROM] == found[TO]) found[FROM]--; /* the steps are long */
     fprintf(out, "set arrow %d from ", *arrows);
     put_place(out, c, found[FROM]);
     fputs(" to ", out);
     put_place(out, c, found[TO]);
-    fprintf(out, " head filled size screen 0.014,18 lw 2 lc rgb '%s' front\n", s->colour);
+    fprintf(out, " head filled size screen 0.014,18 fixed lw 2 lc rgb '%s' front\n", s->colour);
 }
 
 #define RISING "set palette defined (0 '#1e3a8a', 1 '#0e7490', 2 '#15803d', 3 '#c2410c', 4 '#be185d')\n"

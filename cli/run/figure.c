@@ -93,6 +93,9 @@ static bool room_for_panel(figure *f)
     return false;
 }
 
+/* Returns the record of the exact motion, which is smooth where the method's is not. */
+static record *exact_record(figure *f) { return f->smooth.count > 0 ? &f->smooth : &f->fine; }
+
 static bool add_band(figure *f, plot_curve *c, size_t column)
 {
     c->at = f->bars_t;
@@ -105,8 +108,9 @@ static bool add_against_t(figure *f, plot_panel *p, size_t column, plot_role rol
 {
     char label[PLOT_LABEL];
     column_name(f, column, label, sizeof label);
-    double *y = record_add(change ? &f->steps : &f->fine, column);
-    plot_curve *c = y ? plot_curve_add(p, label, change ? f->steps_t : f->t, y, 0, 1) : NULL;
+    record *r = change ? &f->steps : role == PLOT_EXACT ? exact_record(f) : &f->fine;
+    double *y = record_add(r, column);
+    plot_curve *c = y ? plot_curve_add(p, label, r->values[0], y, 0, 1) : NULL;
     if (!c) return false;
     c->role = role;
     c->timelike = true;
@@ -152,7 +156,7 @@ static bool add_path(figure *f, plot_panel *p, const figure_place *place, size_t
 {
     double *at[3] = {NULL, NULL, NULL};
     for (size_t a = 0; a < axes; a++) {
-        at[a] = record_add(&f->fine, column_at(place, cell, a));
+        at[a] = record_add(role == PLOT_EXACT ? exact_record(f) : &f->fine, column_at(place, cell, a));
         if (!at[a]) return false;
     }
     plot_curve *c = plot_curve_add(p, label, at[0], at[1], 0, 1);
@@ -386,8 +390,8 @@ motus_status figure_plane(const load *m, const char *text, size_t columns[2], mo
 /* Adds a curve of one column against another. */
 static plot_curve *add_recorded(figure *f, plot_panel *p, const char *label, const size_t columns[2], plot_role role)
 {
-    double *x = columns[0] == 0 ? f->t : record_add(&f->fine, columns[0]),
-           *y = x ? record_add(&f->fine, columns[1]) : NULL;
+    record *r = role == PLOT_EXACT ? exact_record(f) : &f->fine;
+    double *x = columns[0] == 0 ? r->values[0] : record_add(r, columns[0]), *y = x ? record_add(r, columns[1]) : NULL;
     plot_curve *c = y ? plot_curve_add(p, label, x, y, 0, 1) : NULL;
     if (!c) return NULL;
     c->role = role;
@@ -473,9 +477,11 @@ motus_status figure_begin(figure *f, const load *model, const options *o, motus_
     const int64_t steps = now.steps_total;
     const double way = until - motus_run_time(run);
     *f = (figure){.model = model};
-    f->fine = record_with_jumps(figure_smooth(now.method) && steps > 0 && steps < SMOOTH
-                                    ? record_between(now.step, way, SMOOTH / steps + 1)
-                                    : record_for(steps, way, FINE_SAMPLES));
+    const bool few = steps > 0 && steps < SMOOTH, smooth = figure_smooth(now.method);
+    const record between = few ? record_between(now.step, way, SMOOTH / steps + 1) : record_for(steps, way, 1);
+    f->fine = record_with_jumps(few && smooth ? between : record_for(steps, way, FINE_SAMPLES));
+    f->smooth = between;
+    if (few && !smooth && motus_has_exact(model->system) && !record_add(&f->smooth, 0)) return complain_memory(err);
     f->dotted = steps <= DOTS;
     f->steps = record_at_steps(steps, way, STEPS);
     f->coarse = record_for(steps, way, COARSE_SAMPLES);
@@ -503,6 +509,7 @@ void figure_observers(figure *f, walk_observer out[FIGURE_OBSERVERS])
     out[2] = record_observer(&f->last);
     out[3] = record_observer(&f->bars);
     out[4] = record_observer(&f->steps);
+    out[5] = record_observer(&f->smooth);
 }
 
 static bool fill_heat(figure *f, const figure_heat *h)
@@ -623,6 +630,34 @@ static motus_status mark_events(figure *f, plot_panel *p, motus_run *run, motus_
     return status;
 }
 
+/* Marks the jumps on the curves of a run whose events have no rows. */
+static motus_status mark_jumps(figure *f, plot_panel *p, motus_error *err)
+{
+    const size_t lines = p->curve_count;
+    size_t jumps = 0;
+    for (size_t i = 1; i < f->fine.rows; i++) jumps += isnan(f->t[i]);
+    if (jumps == 0 || jumps > MARKS) return MOTUS_OK;
+    double *points = room_for(f, 3 * jumps * lines);
+    size_t count = 0;
+    if (!points) return complain_memory(err);
+    for (size_t k = 0; k < lines; k++) {
+        const plot_curve *c = &p->curves[k];
+        for (size_t i = 1; c->role == PLOT_LINE && i < c->count; i++)
+            if (isnan(f->t[i])) { /* the row before has the side of the arrival */
+                double *at = points + 3 * count++;
+                at[0] = c->x[i - 1];
+                at[1] = c->y[i - 1];
+                at[2] = c->z ? c->z[i - 1] : 0;
+            }
+    }
+    const bool solid = p->curves[0].z;
+    plot_curve *c = plot_curve_add(p, "events", points, points + 1, count, 3);
+    if (!c) return complain_memory(err);
+    c->role = PLOT_MARKS;
+    if (solid) c->z = points + 2;
+    return MOTUS_OK;
+}
+
 motus_status figure_draw(figure *f, motus_run *run, double known_until, const char *path, file_out *file,
                          motus_error *err)
 {
@@ -634,6 +669,10 @@ motus_status figure_draw(figure *f, motus_run *run, double known_until, const ch
     for (size_t i = 0; i < f->plot.count; i++)
         for (size_t k = 0; k < f->plot.panels[i].curve_count; k++) {
             plot_curve *c = &f->plot.panels[i].curves[k];
+            if (c->role == PLOT_EXACT) {
+                c->count = c->known = exact_record(f)->rows;
+                continue;
+            }
             c->count = c->role == PLOT_STEPS && many        ? 0
                        : c->role == PLOT_STEPS || c->change ? f->steps.rows
                                                             : f->fine.rows;
@@ -642,9 +681,11 @@ motus_status figure_draw(figure *f, motus_run *run, double known_until, const ch
             for (c->band_count = 0; c->at && c->band_count < f->bars.rows; c->band_count++)
                 if (!isfinite(c->error[c->band_count])) break;
         }
-    for (size_t i = 0; !status && events > 0 && events <= MARKS && i < f->plot.count; i++)
-        if (!f->plot.panels[i].low && f->plot.panels[i].curve_count)
-            status = mark_events(f, &f->plot.panels[i], run, err);
+    for (size_t i = 0; !status && events <= MARKS && i < f->plot.count; i++) {
+        plot_panel *p = &f->plot.panels[i];
+        if (p->low || p->curve_count == 0) continue;
+        status = events > 0 ? mark_events(f, p, run, err) : mark_jumps(f, p, err);
+    }
     if (status) return status;
     for (size_t i = 0; i < f->heat_count; i++)
         if (!fill_heat(f, &f->heats[i])) return complain_memory(err);
@@ -659,6 +700,7 @@ void figure_free(figure *f)
     record_free(&f->last);
     record_free(&f->bars);
     record_free(&f->steps);
+    record_free(&f->smooth);
     for (size_t k = 0; k < f->room_count; k++) free(f->rooms[k]);
     free(f->rooms);
     *f = (figure){0};

@@ -8,7 +8,7 @@
 #include "cli/model/load.h"
 #include "cli/run/walk.h"
 
-enum { FIGURE_OBSERVERS = 5, FIGURE_PANELS = 10 };
+enum { FIGURE_OBSERVERS = 6, FIGURE_PANELS = 10 };
 
 /* Columns of a run in memory, one array each, at a bounded number of steps. */
 typedef struct record {
@@ -53,6 +53,7 @@ typedef struct figure {
     record fine, coarse, last; /* for curves; for heat maps against time; for fields at the end */
     record bars;               /* for bands of errors; empty if the run has no errors */
     record steps;              /* for the dots at steps, and the changes of invariants */
+    record smooth;             /* for the exact motion, if the curves of the method are straight lines; else empty */
     double *t, *coarse_t, *bars_t, *steps_t;
     bool dotted;    /* the steps are drawn, if there are not many */
     double **rooms; /* of marks */

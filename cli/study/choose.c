@@ -11,10 +11,12 @@
 #include <math.h>
 #include <string.h>
 
-static const char *family_of(const char *method)
+/* Returns whether two methods are of one family; those that choose their steps are another one. */
+static bool related(const char *a, const char *b)
 {
-    const motus_method *found = NULL;
-    return motus_method_find(method, &found, NULL) == MOTUS_OK ? found->family : "";
+    const motus_method *one = NULL, *other = NULL;
+    return motus_method_find(a, &one, NULL) == MOTUS_OK && motus_method_find(b, &other, NULL) == MOTUS_OK &&
+           strcmp(one->family, other->family) == 0 && one->adaptive == other->adaptive;
 }
 
 static bool better(const choose_row *a, const choose_row *b)
@@ -27,7 +29,7 @@ static size_t shown_of(const choose_row *rows, size_t count, size_t k)
 {
     size_t shown = 0;
     for (size_t i = 0; i < count; i++)
-        shown += rows[i].shown && strcmp(family_of(rows[i].method), family_of(rows[k].method)) == 0;
+        shown += rows[i].shown && related(rows[i].method, rows[k].method);
     return shown;
 }
 

@@ -35,6 +35,7 @@ typedef struct overlay {
     slot slots[VARIABLES];
     size_t slot_count, drift; /* drift: the panel; SIZE_MAX: there is none */
     record fine[CHOOSE_MOST], steps[CHOOSE_MOST];
+    record exact; /* the exact motion, smooth in any case, along the first run */
     double *errors[CHOOSE_MOST][VARIABLES];
     size_t runs;
     motus_reference *reference; /* NULL: there is none */
@@ -104,14 +105,15 @@ static bool add_curves(overlay *v, size_t run, const char *method)
 {
     record *fine = &v->fine[run], *steps = &v->steps[run];
     const double *t = record_add(fine, 0), *at = record_add(steps, 0);
+    const double *exact = run == 0 ? record_add(&v->exact, 0) : NULL;
     for (size_t i = 0; i < v->slot_count; i++) {
         slot *s = &v->slots[i];
         const bool plane = v->plot.panels[s->motion].equal;
         const double *x = plane ? record_add(fine, s->columns[0]) : t, *y = record_add(fine, s->columns[plane]);
         if (!add_curve(v, s->motion, method, x, y, !plane)) return false;
         if (run == 0 && s->exact[1]) {
-            x = plane ? record_add(fine, s->exact[0]) : t;
-            plot_curve *c = add_curve(v, s->motion, "exact", x, record_add(fine, s->exact[1]), !plane);
+            x = plane ? record_add(&v->exact, s->exact[0]) : exact;
+            plot_curve *c = add_curve(v, s->motion, "exact", x, record_add(&v->exact, s->exact[1]), !plane);
             if (!c) return false;
             c->role = PLOT_EXACT;
         }
@@ -204,19 +206,23 @@ static motus_status run_method(overlay *v, const motus_compare_row *row, stop_pr
     const int64_t steps = motus_run_now(run).steps_total;
     const double way = until - motus_run_time(run);
     const size_t k = v->runs++;
-    v->fine[k] = figure_smooth(row->method) && steps > 0 && steps < SMOOTH
-                     ? record_between(motus_run_now(run).step, way, SMOOTH / steps + 1)
-                     : record_for(steps, way, FINE_SAMPLES);
+    const record all = record_for(steps, way, FINE_SAMPLES);
+    const record between =
+        steps > 0 && steps < SMOOTH ? record_between(motus_run_now(run).step, way, SMOOTH / steps + 1) : all;
+    v->fine[k] = figure_smooth(row->method) ? between : all;
+    if (k == 0) v->exact = between;
     v->steps[k] = record_for(steps, way, SAMPLES);
     if (!add_curves(v, k, row->method)) status = complain_memory(err);
-    const walk_observer observers[] = {record_observer(&v->fine[k]), record_observer(&v->steps[k])};
-    if (!status) status = walk(run, motus_run_time(run), until, observers, 2, NULL, err);
+    const walk_observer observers[] = {record_observer(&v->fine[k]), record_observer(&v->steps[k]),
+                                       record_observer(&v->exact)};
+    if (!status) status = walk(run, motus_run_time(run), until, observers, k == 0 ? 3 : 2, NULL, err);
     if (!status && v->reference) status = find_errors(v, k, err);
     for (size_t i = 0; i < v->plot.count; i++)
         for (size_t c = 0; c < v->plot.panels[i].curve_count; c++) {
             plot_curve *own = &v->plot.panels[i].curves[c];
             const bool smooth = !v->plot.panels[i].log_y && i != v->drift;
-            if (own->count == 0) own->count = smooth ? v->fine[k].rows : v->steps[k].rows;
+            if (own->count > 0) continue;
+            own->count = own->role == PLOT_EXACT ? v->exact.rows : smooth ? v->fine[k].rows : v->steps[k].rows;
         }
     motus_run_destroy(run);
     return status;
@@ -246,6 +252,7 @@ motus_status overlay_draw(const studies *s, const motus_comparison *c, const cho
     if (!status) choose_note(v.runs, c->row_count, s);
     plot_free(&v.plot);
     motus_reference_destroy(v.reference);
+    record_free(&v.exact);
     free(v.at);
     free(v.right);
     for (size_t k = 0; k < v.runs; k++) {
