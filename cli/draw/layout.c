@@ -12,8 +12,8 @@
 enum {
     LEFT = 96,    /* for the numbers and the name of the vertical axis */
     ABOVE = 30,   /* for the title */
-    BELOW = 52,   /* for the numbers and the name of the horizontal axis */
-    TOP = 30,     /* for the figure's title */
+    BELOW = 66,   /* for the numbers and the name of the horizontal axis */
+    TOP = 38,     /* for the figure's title */
     RIGHT = 28,   /* without a key */
     SCALE = 140,  /* of the colours beside a map, with its name */
     LETTER = 9,   /* the mean width of one */

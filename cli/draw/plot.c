@@ -341,7 +341,9 @@ static void put_panel(FILE *out, const plot_panel *p, const layout *l, size_t in
         fputs("set autoscale\n", out);
         put_heat_map(out, p, index);
     } else if (!anything(p)) {
-        fputs("set xrange [0:1]\nset yrange [0:1]\nplot NaN notitle\n", out);
+        fputs("set xrange [0:1]\nset yrange [0:1]\nset label 1 'every number is 0, or not known' at graph 0.5, graph "
+              "0.5 center\nplot NaN notitle\n",
+              out);
     } else {
         int arrows = 0;
         size_t lines = 0;

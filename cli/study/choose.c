@@ -28,8 +28,7 @@ static bool better(const choose_row *a, const choose_row *b)
 static size_t shown_of(const choose_row *rows, size_t count, size_t k)
 {
     size_t shown = 0;
-    for (size_t i = 0; i < count; i++)
-        shown += rows[i].shown && related(rows[i].method, rows[k].method);
+    for (size_t i = 0; i < count; i++) shown += rows[i].shown && related(rows[i].method, rows[k].method);
     return shown;
 }
 
