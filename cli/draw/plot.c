@@ -200,6 +200,7 @@ static void put_curves(FILE *out, const plot_panel *p, size_t panel)
                 banded = true;
                 comma = ", ";
             }
+            if (data_none(c)) continue;
             if (pass != (c->role == PLOT_EXACT ? 0 : c->role == PLOT_STEPS || c->role == PLOT_MARKS ? 2 : 1)) continue;
             fprintf(out, "%s$d%zu_%zu using %s", comma, panel, k, c->z || c->shade ? "1:2:3" : "1:2");
             comma = ", ";

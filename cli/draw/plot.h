@@ -73,6 +73,8 @@ motus_status plot_draw(plot_figure *, const char *path, file_out *, motus_error 
 bool data_drawable(double);
 /* Widens [low, high] by the numbers v of a curve. */
 void data_range(const plot_curve *, const double *v, double *low, double *high);
+/* Returns whether there are no points of a curve that is drawn upon others. */
+static inline bool data_none(const plot_curve *c) { return c->count == 0 && c->role >= PLOT_STEPS; }
 /* Returns whether a curve has a band that is wider than its line. */
 bool data_band(const plot_curve *);
 /* Returns whether no digit of a part of the line is known. */

@@ -93,6 +93,9 @@ typedef struct figure_place {
  * such columns. */
 bool figure_find(const load *, const motus_variable *, const char *prefix, const char *suffix, figure_place *);
 
+/* marks.c: adds the events of a finished run to the figure, whose curves have their points. */
+motus_status marks_add(figure *, motus_run *, motus_error *);
+
 /* section.c: the points of --section in a plane. */
 
 /* Chooses the plane before the run: that of --plot-of, or a number that the section does not name against its velocity;
