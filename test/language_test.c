@@ -311,7 +311,9 @@ static void rule_9_shapes(void **unused)
              {"cross(r, r').x", -3}, {"cross(r, r').y", 6}, {"cross(r, r').z", -3}, {"cross((1, 2), (3, 4))", -2},
              {"(x r).z", 6}, {"(if(x > 0, r, r')).y", 2}, {"(r x).z", 6}, {"sum(i = 1..2: i r).z", 9},
              {"(1, 2, 3, 4, 5)[5]", 5}, {"g.y", -10}, {"g[2]", -10}, {"dot(g, (1, 2))", -20}, {"(2 places[2]).y", 8},
-             {"(a g/b).y", -50.0 * (1.0 / 3)});
+             {"(a g/b).y", -50.0 * (1.0 / 3)}, {"r · r'", 32}, {"(r × r').y", 6}, {"(1, 2) × (3, 4)", -2},
+             {"1/2 r ⋅ r'/2", 8}, {"(r × (r' × r)).x + 0", 24}, {"(x × r).z", 6}, {"2 × a × (1, 1) · (3, 4)", 70},
+             {"(r · r) × a", 70}, {"(r × r' a/b).y", 10}, {"r · r' x × a", 320});
     REFUSALS({"r r'", MOTUS_SHAPE, 1, "dot(r, r'), cross(r, r')"}, {"r*r", MOTUS_SHAPE, 1, "|v|^2"},
              {"r^2", MOTUS_SHAPE, 1, "|r|^2"}, {"1/r", MOTUS_SHAPE, 1, "|r|"}, {"r + 1", MOTUS_SHAPE, 1, "|r|"},
              {"1 - r", MOTUS_SHAPE, 1, "|r|"}, {"r + (1, 2)", MOTUS_SHAPE, 1, "length 2"},
@@ -322,7 +324,10 @@ static void rule_9_shapes(void **unused)
              {"r.w", MOTUS_SYNTAX, 3, ".x .y .z"}, {"2^r", MOTUS_SHAPE, 3, "exponent"},
              {"(r, 1)", MOTUS_SHAPE, 2, "component"}, {"if(x > 0, r, 0)", MOTUS_SHAPE, 1, "fit"},
              {"min(r, r)", MOTUS_SHAPE, 5, "vector"}, {"r < r'", MOTUS_SHAPE, 1, "comparison"},
-             {"(x > 0) + r", MOTUS_SHAPE, 1, "a number and a vector"}, {"(x > 0).x", MOTUS_SHAPE, 1, "a condition"});
+             {"r × r' × r", MOTUS_SHAPE, 1, "write brackets: (r × r') …"},
+             {"r · r × r'", MOTUS_SHAPE, 1, "multiplied first"}, {"r × r' a × r", MOTUS_SHAPE, 1, "multiplied first"},
+             {"r × g", MOTUS_SHAPE, 1, "length 3"}, {"(x > 0) + r", MOTUS_SHAPE, 1, "a number and a vector"},
+             {"(x > 0).x", MOTUS_SHAPE, 1, "a condition"});
 }
 
 static void rule_10_parameters_and_quantities(void **unused)

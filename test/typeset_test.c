@@ -174,6 +174,8 @@ static void expressions(void **state)
         {"dot(2 r, s)", "{(2~r)}⋅s"},
         {"a dot(r, s)", "a~{(r⋅s)}"},
         {"-cross(r, s)", "−r×s"},
+        {"a r × s", "a~r×s"},
+        {"a r · (r + s)", "a~r⋅{(r+s)}"},
         {"dot(cross(r, s), r)", "{(r×s)}⋅r"},
         {"a (1, 2)", "a⋅{(1,2)}"},
         /* choices and comparisons */

@@ -14,9 +14,10 @@
 
 typedef struct value {
     node *item;
-    int count;             /* 0: it is a scalar, item[0] */
-    int rows;              /* 0: it is no matrix; else it has rows of `count` numbers: only a factor may be one */
-    bool boolean, derived; /* derived: diff has made it (see lower_tidy) */
+    int count; /* 0: it is a scalar, item[0] */
+    int rows;  /* 0: it is no matrix; else it has rows of `count` numbers: only a factor may be one */
+    /* derived: diff has made it (see lower_tidy); joined: it begins with a product of vectors by a sign, a × b */
+    bool boolean, derived, joined;
 } value;
 
 /* The name of an index that may be used: as a subscript, as a number, and its range. */

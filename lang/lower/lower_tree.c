@@ -64,10 +64,52 @@ static value lower_matrix_product(lowering *l, const tree *t, value a, value b)
     return v;
 }
 
+static node dot(lowering *l, value a, value b)
+{
+    value products = vector(l, a.count);
+    for (int k = 0; k < products.count; k++) products.item[k] = binary(l, OP_MUL, a.item[k], b.item[k]);
+    return graph_total(l->model->graph, products.item, (size_t)products.count);
+}
+
+/* Returns a[i] b[j] - a[j] b[i]. Two statements make the products, since C leaves the order of arguments open. */
+static node area(lowering *l, const node *a, const node *b, int i, int j)
+{
+    node minus = binary(l, OP_MUL, a[j], b[i]), plus = binary(l, OP_MUL, a[i], b[j]);
+    return binary(l, OP_SUB, plus, minus);
+}
+
+/* Multiplies two vectors as `dot` and `cross` do, which t calls or has as a sign. */
+static value lower_vectors(lowering *l, const tree *t, value v, value w)
+{
+    const bool is_cross = t->operation == CALL_CROSS;
+    char shape[40], other[40];
+    if (v.count == 0 || v.count != w.count || (is_cross && v.count > 3)) {
+        COMPLAIN(l, &t->at, "%s takes two vectors of %s, not %s and %s", is_cross ? "cross" : "dot",
+                 is_cross ? "length 3 (or 2)" : "equal length", shape_name(&v, shape), shape_name(&w, other));
+        return wrong(l);
+    }
+    if (!is_cross) return scalar(l, dot(l, v, w));
+    const node *a = v.item, *b = w.item;
+    if (v.count == 2) return scalar(l, area(l, a, b, 0, 1));
+    value r = vector(l, 3);
+    for (int k = 0; k < 3; k++) r.item[k] = area(l, a, b, (k + 1) % 3, (k + 2) % 3);
+    return r;
+}
+
 static value lower_product(lowering *l, const tree *t, const tree *a, value va, const tree *b, value vb)
 {
     char x[80], y[80];
     if (va.rows || vb.rows) return lower_matrix_product(l, t, va, vb);
+    if (t->operation && va.joined && !a->bracketed && (va.count || vb.count)) { /* a × b × c, a · b × c */
+        COMPLAIN(l, &t->at, "which two vectors are multiplied first?");
+        HINT(l, "write brackets: (%s) …, or cross(…, …)", quote(l, &a->at, x));
+        return wrong(l);
+    }
+    if (va.count && vb.count && t->operation) {
+        value v = lower_vectors(l, t, va, vb);
+        v.joined = true;
+        return v;
+    }
     if (va.count && vb.count) {
         COMPLAIN(l, &t->at, "two vectors have no plain product");
         HINT(l, "write dot(%s, %s), cross(%s, %s) or |v|^2", quote(l, &a->at, x), quote(l, &b->at, y), x, y);
@@ -115,13 +157,6 @@ static value lower_quotient(lowering *l, const tree *t, value va, const tree *b,
     return v;
 }
 
-static node dot(lowering *l, value a, value b)
-{
-    value products = vector(l, a.count);
-    for (int k = 0; k < products.count; k++) products.item[k] = binary(l, OP_MUL, a.item[k], b.item[k]);
-    return graph_total(l->model->graph, products.item, (size_t)products.count);
-}
-
 /* Returns whether an exponent is a literal whole number with |n| <= 64; the power then becomes products. */
 static bool literal_exponent(const tree *t, int *n)
 {
@@ -148,13 +183,6 @@ static node norm_power(lowering *l, value of, int n)
     }
     if (m == 0) return graph_const(g, 1);
     return n < 0 ? binary(l, OP_DIV, graph_const(g, 1), p) : p;
-}
-
-/* Returns a[i] b[j] - a[j] b[i]. Two statements make the products, since C leaves the order of arguments open. */
-static node area(lowering *l, const node *a, const node *b, int i, int j)
-{
-    node minus = binary(l, OP_MUL, a[j], b[i]), plus = binary(l, OP_MUL, a[i], b[j]);
-    return binary(l, OP_SUB, plus, minus);
 }
 
 static value lower_power(lowering *l, const tree *t)
@@ -259,21 +287,7 @@ static value lower_call(lowering *l, const tree *t)
     }
     if (t->operation == CALL_IF) return lower_choice(l, t, v);
     for (uint32_t i = 0; i < n && i < 3; i++) lower_as_number(l, &v[i]);
-    if (t->operation == CALL_DOT || t->operation == CALL_CROSS) {
-        bool cross = t->operation == CALL_CROSS;
-        if (v[0].count == 0 || v[0].count != v[1].count || (cross && v[0].count > 3)) {
-            char other[40];
-            COMPLAIN(l, &t->at, "%s takes two vectors of %s, not %s and %s", t->name,
-                     cross ? "length 3 (or 2)" : "equal length", shape_name(&v[0], shape), shape_name(&v[1], other));
-            return wrong(l);
-        }
-        if (!cross) return scalar(l, dot(l, v[0], v[1]));
-        const node *a = v[0].item, *b = v[1].item;
-        if (v[0].count == 2) return scalar(l, area(l, a, b, 0, 1));
-        value r = vector(l, 3);
-        for (int k = 0; k < 3; k++) r.item[k] = area(l, a, b, (k + 1) % 3, (k + 2) % 3);
-        return r;
-    }
+    if (t->operation == CALL_DOT || t->operation == CALL_CROSS) return lower_vectors(l, t, v[0], v[1]);
     if (t->operation == OP_MIN || t->operation == OP_MAX) {
         node r = lower_scalar(l, t->item[0], "an argument");
         for (uint32_t i = 1; i < n && !failed(l); i++)
@@ -450,6 +464,7 @@ static value lower_right(lowering *l, const tree *t, value left)
     if (derived) lower_tidy(l, true);
     value v = t->kind == TREE_MULTIPLY ? lower_product(l, t, a, left, b, right) : lower_quotient(l, t, left, b, right);
     v.derived = derived;
+    v.joined |= left.joined && !a->bracketed;
     lower_tidy(l, false);
     return v;
 }

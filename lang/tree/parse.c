@@ -162,7 +162,10 @@ static tree *parse_signed(parser *p, tree *t)
     if (failed(p)) return t;
     right->divisor = !times;
     if (minus) right = negated(p, at, right);
-    return two(p, times ? TREE_MULTIPLY : TREE_DIVIDE, t, right);
+    tree *all = two(p, times ? TREE_MULTIPLY : TREE_DIVIDE, t, right);
+    const char *const bytes = p->source->texts[sign.text].bytes + sign.from;
+    if (times && bytes[0] != '*') all->operation = !memcmp(bytes, "×", 2) ? CALL_CROSS : CALL_DOT;
+    return all;
 }
 
 /* product = power { "*" [ "-" ] power | "/" [ "-" ] power | power } from the left [2, 3] */

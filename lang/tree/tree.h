@@ -15,7 +15,7 @@ typedef enum tree_kind {
     TREE_NEGATE,
     TREE_ADD,
     TREE_SUBTRACT,
-    TREE_MULTIPLY,
+    TREE_MULTIPLY, /* .operation: CALL_CROSS for the sign ×, CALL_DOT for ·, which differ between vectors */
     TREE_DIVIDE,
     TREE_POWER,
     TREE_COMPARE, /* .operation: OP_LT … OP_NE */

@@ -168,8 +168,9 @@ static void infix(typesetter *p, const tree *t, place at, tight a, uint32_t foll
     if (chain_of(t->kind) && chain_of(t->item[0]->kind) == chain_of(t->kind))
         of_left = (of_left | PLACE_CHAIN) - PLACE_LEVEL;
     typeset_then(p, t->item[0], of_left);
-    if (sign)
-        typeset_sign(p, sign);
+    const bool signs = t->kind == TREE_MULTIPLY && t->operation;
+    if (sign || signs)
+        typeset_sign(p, sign ? sign : t->operation == CALL_CROSS ? "<mo>×</mo>" : "<mo>⋅</mo>");
     else
         times(p, t->item[0], right, at);
     typeset_then(p, right, place_last(at, b));
