@@ -101,6 +101,7 @@ typedef struct ours_answer {
     int64_t steps;
 } ours_answer;
 struct problem;
+void ours_prepare(const char *file, const struct problem *, const char *method, double tolerance);
 ours_answer ours_adaptive(const char *file, const struct problem *, const char *method, double tolerance,
                           double *state);
 /* bench/driven-pendulum.motus on one thread: the processor's seconds without reading and compiling, or NaN. */

@@ -7,6 +7,27 @@
 #include <stdlib.h>
 #include <string.h>
 
+static const double LONG = 1.5; /* seconds, also of a compiler */
+
+/* Lets a long run get the object that long runs get, and the cache keep it. */
+void ours_prepare(const char *file, const problem *p, const char *method, double tolerance)
+{
+    motus_text_def text = motus_default_text();
+    motus_run_def def = motus_default_run();
+    motus_system *system = NULL;
+    motus_run *run = NULL;
+    char *words = read_text(file);
+    text.text = words;
+    def.method = method, def.machine = "compiled", def.tolerance = tolerance;
+    def.until = 1e6 * p->until, def.x = p->start, def.v = p->start + p->positions;
+    const double begin = now();
+    if (words && !motus_system_from_text(&text, &system, NULL) && !motus_run_create(system, &def, &run, NULL))
+        while (now() - begin < LONG && !motus_run_step(run, 1000, NULL)) continue;
+    motus_run_destroy(run);
+    motus_system_destroy(system);
+    free(words);
+}
+
 /* The state of a model is in the order of its families, as that of the problem is. */
 ours_answer ours_adaptive(const char *file, const problem *p, const char *method, double tolerance, double *state)
 {

@@ -17,6 +17,7 @@ typedef struct chosen {
     int64_t count;             /* of adaptive rows: the most steps of a leg; 0: any number */
     double first;              /* the size of the first step; 0: error control chooses it */
     bool varies;               /* the numbers of the model change while it runs */
+    bool written;              /* compiled: asks for the longer text, which is compiled beside a long run */
     int threads;               /* that a large system may use; their number changes no bit */
     char name[MOTUS_NAME_MAX]; /* canonical: "verlet", "newmark(0.16666666666666666, 0.5)" */
 } chosen;

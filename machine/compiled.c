@@ -21,7 +21,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { OBJECTS_MAX = 64, MAKINGS_MAX = 8, NOTE_MAX = 400 };
+enum { OBJECTS_MAX = 96, MAKINGS_MAX = 8, NOTE_MAX = 400 };
 
 #include "machine/text/host.h"
 
@@ -29,8 +29,8 @@ enum { OBJECTS_MAX = 64, MAKINGS_MAX = 8, NOTE_MAX = 400 };
 typedef struct purpose {
     const row *row;
     double argument[2];
-    int expands; /* the order of its Taylor series follows from a tolerance */
-    bool varies;
+    int expands;          /* the order of its Taylor series follows from a tolerance */
+    bool varies, written; /* written: it is the longer text */
 } purpose;
 
 /* A compiled text that is loaded. It has its own numbers, since their count and order depend on its programs. */
@@ -43,6 +43,7 @@ typedef struct object {
     int (*fits)(const double *u);                            /* tells whether it was compiled for such numbers */
     void (*accel)(const compiled_host *, double t, double *x, double *v, double *a); /* NULL: Taylor series alone */
     void *handle;
+    bool longer; /* there is a longer text */
     stepper_body body;
 } object;
 
@@ -159,7 +160,9 @@ static bool write_text(compiled *c, const chosen *chosen, emit *e)
     if (expands && !c->series) c->series = expansion_program(m->arena, m->graph, m->accel, m->accel_count);
     if (expands && m->driven && !c->boundary_series)
         c->boundary_series = expansion_program(m->arena, m->graph, m->boundary, m->boundary_count);
-    const bool bounds = row_watched(chosen) && least_bounded(m);
+    const bool bounded = row_watched(chosen) && least_bounded(m);
+    const bool bounds = bounded && (chosen->written || !compose_small(m)); /* the interpreter's do for a first text */
+    e->longer = bounded && compose_small(m);
     if (bounds && !c->least) {
         size_t functions;
         const output *least = least_sizes(m, &functions);
@@ -186,6 +189,7 @@ static bool write_text(compiled *c, const chosen *chosen, emit *e)
                                      .program_count = count,
                                      .locality = &c->locality,
                                      .bounds = bounds,
+                                     .written = chosen->written,
                                      .last = last});
 }
 
@@ -249,20 +253,30 @@ static purpose purpose_of(const compiled *c, const chosen *chosen)
     return (purpose){.row = chosen->row,
                      .argument = {chosen->argument[0], chosen->argument[1]},
                      .expands = stepper_plan(c->interpreted, chosen, NULL).expands,
-                     .varies = chosen->varies};
+                     .varies = chosen->varies,
+                     .written = chosen->written};
 }
 
 static bool same(const purpose *a, const purpose *b)
 {
     return a->row == b->row && a->argument[0] == b->argument[0] && a->argument[1] == b->argument[1] &&
-           a->expands == b->expands && a->varies == b->varies;
+           a->expands == b->expands && a->varies == b->varies && a->written == b->written;
 }
 
-static object *find(compiled *c, const purpose *p)
+static object *find_text(compiled *c, const purpose *p)
 {
     for (object *o = c->objects; o < c->objects + c->count; o++)
         if (same(&o->purpose, p) && o->fits(o->u)) return o;
     return NULL;
+}
+
+/* Finds a loaded object, that of the longer text first. */
+static object *find(compiled *c, const purpose *p)
+{
+    purpose longer = *p;
+    longer.written = true;
+    object *o = find_text(c, &longer);
+    return o || p->written ? o : find_text(c, p);
 }
 
 /* Writes the text; NULL: it failed, and c->note says why. */
@@ -295,7 +309,7 @@ static object *adopt(compiled *c, const purpose *p, const emit *e, void *handle)
 {
     object *o = &c->objects[c->count];
     if (c->count < OBJECTS_MAX) {
-        *o = (object){.purpose = *p, .handle = handle, .body = *stepper_best_body()};
+        *o = (object){.purpose = *p, .handle = handle, .longer = e->longer, .body = *stepper_best_body()};
         o->body.name = "compiled";
         /* POSIX lets a void * hold the address of a function. */
         *(void **)&o->bind = dlsym(handle, "motus_bind");
@@ -313,14 +327,37 @@ static object *adopt(compiled *c, const purpose *p, const emit *e, void *handle)
     return o;
 }
 
+/* Writes the text to compile: the longer one, if it is asked for. If another asks and the cache has the longer one, its
+ * object is loaded instead. NULL: it is loaded, or c->note says what failed. */
+static const char *wanted_text(compiled *c, const chosen *asked, emit *e, object **loaded)
+{
+    chosen longer = *asked;
+    longer.written = true;
+    const char *text = text_of(c, &longer, e);
+    *loaded = NULL;
+    if (!text || !e->longer) return text; /* then there is one text */
+    if (asked->written) return text;
+    const purpose p = purpose_of(c, &longer);
+    void *handle = cache_load(text, e->text.length, CACHE_KEPT | loops_of(c, &p), c->note, sizeof c->note);
+    *loaded = handle ? adopt(c, &p, e, handle) : NULL;
+    return *loaded ? NULL : text_of(c, asked, e);
+}
+
 static object *object_of(compiled *c, const chosen *chosen, int how)
 {
     const purpose p = purpose_of(c, chosen);
     object *o = find(c, &p);
     emit e;
-    if (o || !text_of(c, chosen, &e)) return o;
+    if (o || !wanted_text(c, chosen, &e, &o)) return o;
     void *handle = cache_load(e.text.bytes, e.text.length, how | loops_of(c, &p), c->note, sizeof c->note);
     return handle ? adopt(c, &p, &e, handle) : NULL;
+}
+
+bool compiled_longer(compiled *c, const chosen *chosen)
+{
+    const purpose p = purpose_of(c, chosen);
+    const object *o = find(c, &p);
+    return o && o->longer && !o->purpose.written;
 }
 
 /* ---- objects in the making ---- */
@@ -353,7 +390,8 @@ compiled_state compiled_begin(compiled *c, const chosen *chosen, const char **wh
         return COMPILED_FAILED;
     }
     void *handle;
-    if (!text_of(c, chosen, &m->e)) return COMPILED_FAILED;
+    object *loaded;
+    if (!wanted_text(c, chosen, &m->e, &loaded)) return loaded ? COMPILED_READY : COMPILED_FAILED;
     const cache_state state = cache_begin(m->e.text.bytes, m->e.text.length, loops_of(c, &p),
                                           &c->model->arena->allocator, &m->job, &handle, c->note, sizeof c->note);
     if (state != CACHE_WAIT) return answer(c, &p, &m->e, handle);

@@ -17,6 +17,9 @@ void compiled_close(compiled *);
 const char *compiled_text(compiled *, const chosen *, size_t *length);
 /* Loads the object of a row from the cache or, unless `kept`, compiles it. Returns NULL, or why that failed. */
 const char *compiled_prepare(compiled *, const chosen *, bool kept);
+/* Tells whether the object of a row is that of a text which has a longer one (chosen.written), whose object is faster.
+ * Where the cache has that, it is loaded in place of the other. */
+bool compiled_longer(compiled *, const chosen *);
 typedef enum { COMPILED_READY, COMPILED_WAIT, COMPILED_FAILED } compiled_state;
 /* Begins to load or compile the object of a row, without waiting. WAIT: a compiler is at work, and the caller waits for
  * it until it calls compiled_leave; all who wait for one object share a compiler, which is killed when none is left.

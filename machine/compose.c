@@ -1,7 +1,8 @@
 /* Composing the C text of a compiled model. See compose.h.
  *
- * Invariant: the text has only what the model, the row and the problem's traits use, because a first run waits for the
- * compiler. It includes no system header, and what is known when it is written is a constant in it.
+ * Invariant: the text has only what the model, the row and the problem's traits use, and writes out what takes a
+ * compiler long only where a longer text is asked for, because a first run waits for the compiler. It includes no
+ * system header, and what is known when it is written is a constant in it.
  */
 #include "machine/compose.h"
 
@@ -17,6 +18,7 @@ enum {
     SERIES_APART = 7,       /* arrays of a row of Taylor series besides the series: step/taylor.h */
     SMALL_MAX = 16,         /* numbers of a state that may stay in registers */
     WRITTEN_OUT_MAX = 150,  /* operations of the force in all stages of a step, up to which they are written out */
+    WRITTEN_LATER = 4000,   /* and up to which the longer text of adaptive steps has them written out */
     FORCE_INLINE_MAX = 150, /* operations: a longer force is compiled once, and called */
     FORCE_TURNS_MAX = 40    /* operations, for an implicit row: its text has the force several times, and one call more
                              * is nothing beside the calls that solve its equations */
@@ -84,7 +86,8 @@ bool compose_bounds_are_structure(const model *m)
     return single;
 }
 
-/* Adds the text that asks after every step whether an event may have happened in it, if rules may be followed. */
+/* Adds the text that asks after every step whether an event may have happened in it, if rules may be followed. A small
+ * model has it without rules too, so that the object which the cache has of it serves the model with a section. */
 static void add_watch(emit_text *t, const composition *c)
 {
     const model *m = c->model;
@@ -93,7 +96,7 @@ static void add_watch(emit_text *t, const composition *c)
         if (c->bounds) add_text(t, "step/swing.h"), add_text(t, "step/box.h");
         return;
     }
-    if (!row_watched(c->chosen) || (!m->rule_count && !m->modes)) {
+    if (!row_watched(c->chosen) || (!m->rule_count && !m->modes && !compose_small(m))) {
         emit_add(t, "#define WATCHES(w) false\n#define watch_begin(w) ((void)0)\n#define watch_ends(w) false\n");
         return;
     }
@@ -226,7 +229,10 @@ static bool add_facts(emit *e, const composition *c, bool structure)
     const bool many_solves = w.solves && !solve_text_single(&w);
     /* the text of an equation also has the derivatives of the force */
     const size_t length = w.solves ? c->model->graph->count : length_of(c->programs[0].program);
-    if (structure && !many_solves && (size_t)stages * length <= WRITTEN_OUT_MAX)
+    const size_t all = (size_t)stages * length;
+    const bool later = r->adaptive && !w.solves && !w.iterates && all > WRITTEN_OUT_MAX && all <= WRITTEN_LATER;
+    e->longer = e->longer || (structure && stages > 1 && later);
+    if (structure && !many_solves && (all <= WRITTEN_OUT_MAX || (c->written && later)))
         emit_add(t, "#define EACH_STAGE(i, count) WRITTEN_OUT for (int i = 0; i < (count); i++)\n");
     add_family_names(t, family_names[r->family]);
     return true;

@@ -308,7 +308,7 @@ static void goes_on_compiled(void **state)
         def.machine = compiled ? "auto" : "interpreter";
         must(motus_run_create(s, &def, &r, &err), &err, "run");
         assert_string_equal(motus_run_now(r).machine, "interpreter");
-        if (compiled) must(later_at(r, 300, &err), &err, "later");
+        if (compiled) must(later_at(r, 300, 0, &err), &err, "later");
         must(motus_run_sample_errors(r, times, TIMES, columns, NUMBERS, a[compiled][0], e[compiled][0], &err), &err,
              "sample");
         must(motus_run_finish(r, &err), &err, "finish");

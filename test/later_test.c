@@ -28,8 +28,9 @@ typedef struct end {
     motus_run_statistics done;
 } end;
 
-/* In portions, sampled within a step, with a shorter last step. at: where it goes over; 0: interpreted. */
-static end go(motus_system *s, const char *method, int64_t at)
+/* In portions, sampled within a step, with a shorter last step. at: where it goes over; 0: interpreted. longer: where
+ * it takes the longer text; 0: nowhere. */
+static end go_twice(motus_system *s, const char *method, int64_t at, int64_t longer)
 {
     motus_error err = motus_default_error();
     motus_run_def def = motus_default_run();
@@ -41,7 +42,7 @@ static end go(motus_system *s, const char *method, int64_t at)
     def.error = MOTUS_BARS_CHEAP;
     given_step(&def, 0.05);
     must(motus_run_create(s, &def, &r, &err), &err, method);
-    if (at) must(later_at(r, at, &err), &err, method);
+    if (at) must(later_at(r, at, longer, &err), &err, method);
     take_steps(r, 3);
     const double time = motus_run_time(r) + 0.02;
     must(motus_run_sample(r, &time, 1, columns, e.count, e.between, &err), &err, method);
@@ -51,9 +52,12 @@ static end go(motus_system *s, const char *method, int64_t at)
     must(motus_run_state(r, e.state, e.state + motus_positions(s), &err), &err, method);
     e.done = motus_run_now(r);
     assert_string_equal(e.done.machine, at ? "compiled" : "interpreter");
+    assert_int_equal(r->chosen.written, longer != 0);
     motus_run_destroy(r);
     return e;
 }
+
+static end go(motus_system *s, const char *method, int64_t at) { return go_twice(s, method, at, 0); }
 
 static void same(const end *a, const end *b, const char *method, int64_t at)
 {
@@ -113,6 +117,31 @@ static void at_every_step(void **unused)
         }
     print_message("%d pairs of model and method\n", pairs);
     assert_true(pairs >= 12);
+}
+
+/* Steps with a loop over stages, then with all stages written out, and with the bounds of events. */
+static void through_both_texts(void **unused)
+{
+    (void)unused;
+    static const char events[] = "x'' = -x/(x^2 + y^2)^1.5 + 0.1 x y\ny'' = -y/(x^2 + y^2)^1.5\nx(0) = 1\nx'(0) = 0.1\n"
+                                 "y(0) = 0.3\ny'(0) = 0.9\nwhen y = 0.5 rising: y' = 0.7 y'\nwhen x = 2: record\n"
+                                 "step 0.05\nuntil 2\n";
+    static const struct {
+        const char *text, *method;
+    } pairs[] = {{pair, "dop853"},   {friction, "verner9"}, {magnet, "dop853"}, {pair, "kahan-li8-reversible"},
+                 {events, "taylor"}, {events, "verner8"}};
+    for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++) {
+        end ends[2];
+        for (int both = 0; both < 2; both++) {
+            motus_system *s = given_text(pairs[i].text);
+            compile_and_count("");
+            ends[both] = go_twice(s, pairs[i].method, 2 * both, 4 * both);
+            const int compiled = calls(); /* the companion's too, whose numbers are others */
+            assert_true(both ? compiled >= 2 : compiled == 0);
+            motus_system_destroy(s);
+        }
+        same(&ends[0], &ends[1], pairs[i].method, 2);
+    }
 }
 
 /* ---- compilers ---- */
@@ -465,7 +494,7 @@ static void companions(void **unused)
         motus_run *r = NULL;
         def.method = rows[i], def.step = 0.001, def.until = 1, def.error = MOTUS_BARS_CHEAP;
         must(motus_run_create(s, &def, &r, &err), &err, rows[i]);
-        must(later_at(r, 5, &err), &err, rows[i]);
+        must(later_at(r, 5, 0, &err), &err, rows[i]);
         finish(r);
         assert_string_equal(motus_run_now(r).machine, "compiled");
         assert_string_equal(r->bars->half.machine.name, "compiled");
@@ -508,10 +537,40 @@ static void legs_meanwhile(void **unused)
     nothing_is_left("legs");
 }
 
+/* The object of a model serves the model with a section. */
+static void a_section_compiles_nothing(void **unused)
+{
+    (void)unused;
+    static const char *const rows[] = {"taylor", "dop853"}, *const section = "x = 0.2 rising: record";
+    for (int i = 0; i < 2; i++) {
+        motus_run_def def = motus_default_run();
+        def.method = rows[i], def.until = 100, def.machine = "compiled";
+        compile_and_count("");
+        for (int with = 0; with < 2; with++) {
+            motus_error err = motus_default_error();
+            motus_text_def text = motus_default_text();
+            motus_system *s = NULL;
+            motus_run *r = NULL;
+            text.text = pair, text.when = &section, text.when_count = with;
+            must(motus_system_from_text(&text, &s, &err), &err, "system");
+            must(motus_run_create(s, &def, &r, &err), &err, rows[i]);
+            finish(r);
+            assert_string_equal(motus_run_now(r).machine, "compiled");
+            assert_true(!with || motus_run_events(r) > 0);
+            assert_int_equal(calls(), !with);
+            motus_run_destroy(r);
+            motus_system_destroy(s);
+            def.machine = "auto";
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(at_every_step),
+        cmocka_unit_test(through_both_texts),
+        cmocka_unit_test(a_section_compiles_nothing),
         cmocka_unit_test(the_compiler_is_slow),
         cmocka_unit_test(runs_share_a_compiler),
         cmocka_unit_test(the_compiler_fails),

@@ -1,5 +1,6 @@
 /* Which machine a run takes, and when. A long run begins in the interpreter while the compiler works, and goes on
- * compiled at the end of a step, so that nobody waits for a compiler.
+ * compiled at the end of a step, so that nobody waits for a compiler. Likewise it goes from a text that is compiled
+ * soon to a longer one, which is faster.
  *
  * Invariant: the bits, the counters and the errors do not depend on when a run goes over, nor on whether it does.
  */
@@ -20,7 +21,7 @@ void later_hurry(motus_run *);
 /* Forgets the compiler: the run ends, or cannot go on compiled. */
 void later_end(motus_run *);
 /* For tests, before the first step: begins in the interpreter and goes on compiled after exactly `step` steps, at least
- * 1; there the run waits for the compiler. */
-motus_status later_at(motus_run *, int64_t step, motus_error *);
+ * 1, and with the longer text after `longer` steps (0: as usual); there the run waits for the compiler. */
+motus_status later_at(motus_run *, int64_t step, int64_t longer, motus_error *);
 
 #endif

@@ -37,12 +37,14 @@ typedef struct run_company {
 /* How a run goes on compiled: api/motion/later.h. All bytes 0: it stays on its machine. */
 typedef struct later {
     bool automatic;  /* nobody named the machine, and compiling pays */
-    bool considers;  /* the run's length is not known, so whether compiling pays is judged on the way */
+    bool considers;  /* whether compiling pays is judged on the way, after `when` steps and later */
     bool waits;      /* a compiler is at work */
+    int64_t when;    /* in all legs, as those of `look` */
     int64_t look;    /* the number of steps, in all legs, after which the run looks again; 0: never */
     int64_t piece;   /* steps between two looks for the object */
     double looked;   /* the time of the last look */
     int64_t exactly; /* for tests: the step after which the run goes over; 0: as soon as it can */
+    int64_t longer;  /* for tests: the same, for the longer text */
     beside beside;   /* used while a compiler is at work */
 } later;
 
