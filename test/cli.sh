@@ -236,6 +236,56 @@ gives "--set" 0 "$motus" run $osc --json --set F=0.2 --set "x(0)=0.5"
 cp "$out" "$place/set"
 gives "--set is an edit" 0 "$motus" run <(sed 's/F = 0.1/F = 0.2/; s/x(0) = 0/x(0) = 0.5/' "$osc") --json
 that "... the same bits" eval "[ \"\$(jq -c .state '$out')\" = \"\$(jq -c .state '$place/set')\" ]"
+# --- lists from files ---
+cat >"$place/table.motus" <<'M'
+T = [0, 1]
+A = [0, 0]
+x'' = -x + interp(t, T, A)
+x(0) = 0
+x'(0) = 0
+method rk4
+step 0.01
+until 2
+M
+table=$place/table.motus
+gives "--set of two lists" 0 "$motus" run $table --json --set "T = [0, 1, 2.5]" --set "A=[0.5, 1.5, -1]"
+sed 's/"seconds".*//' "$out" >"$place/lists"
+printf 'time,acc (g)\n# a comment\n0,0.5\n1,1.5\n\n2.5,-1\n' >"$place/a.csv"
+printf 't;a\n0,0;0,5\n1,0;1,5\n2,5;-1\n' >"$place/b.csv"
+printf '0\t0,5\r\n1\t1,5\r\n2,5\t-1\r\n' >"$place/c.tsv"
+printf '  0.0   .5\n 1e0  +1.5\n%% a comment\n 2.5 -1\n' >"$place/d.dat"
+printf '"time","a, b"\n0,0.5\n1,1.5\n2.5,-1\n' >"$place/e.csv"
+printf 'acc\n0,5\n1,5\n-1,0\n' >"$place/f.csv"
+from() { # NAME T A: the lists are columns of files
+    gives "$1" 0 "$motus" run $table --json --set "T=$2" --set "A=$3"
+    that "... has the numbers of the lists" eval "sed 's/\"seconds\".*//' '$out' | cmp -s - '$place/lists'"
+}
+from "columns by number" "@$place/a.csv:1" "@$place/a.csv:2"
+from "columns by name" "@$place/a.csv:time" "@$place/a.csv:acc (g)"
+from "decimal commas and semicolons" "@$place/b.csv:t" "@$place/b.csv:2"
+from "decimal commas and tabs" "@$place/c.tsv:1" "@$place/c.tsv:2"
+from "columns between blanks" "@$place/d.dat:1" "@$place/d.dat:2"
+from "a name with a comma" "@$place/e.csv:time" "@$place/e.csv:a, b"
+from "the only column, with decimal commas" "@$place/a.csv:1" "@$place/f.csv"
+"$motus" sweep $table --vary "x(0)=0:1:2" --set "A=@$place/a.csv:2" --set "T=@$place/a.csv:1" --record final -o "$place/list.csv" -q 2>"$err"
+that "a file of results has the numbers, not the name of the file" eval "head -n 1 '$place/list.csv' | grep -q 'A=\[0.5, 1.5, -1\]'"
+printf '0,5\n1,5\n-1,0\n' >"$place/g.csv"
+refuses "what may be two columns or decimal commas" 2 "a number with a decimal comma, or two columns" "$motus" run $table --set "A=@$place/g.csv"
+refuses "... also with a number" 2 "a number with a decimal comma, or two columns" "$motus" run $table --set "A=@$place/g.csv:1"
+printf 't,a\n0,1\n1,2\n1,3\n2,nan\n4,\n5\n6,7,8\n' >"$place/h.csv"
+head -n 4 "$place/h.csv" >"$place/i.csv"
+refuses "points that do not rise" 2 "in T number 2 is 1 and number 3 1" "$motus" run $table --set "T=@$place/i.csv:t" --set "A=@$place/i.csv:a"
+that "... with the line of the file" says "T[3] stands in line 4 of $place/i.csv" "$err"
+refuses "a cell that is no number" 2 "h.csv:5: nan is not a finite number" "$motus" run $table --set "A=@$place/h.csv:a"
+sed -i 5d "$place/h.csv"
+refuses "a cell that is empty" 2 "h.csv:5: nothing is not a finite number" "$motus" run $table --set "A=@$place/h.csv:a"
+sed -i 5d "$place/h.csv"
+refuses "a row that is too short" 2 "h.csv:5: the line has too few columns" "$motus" run $table --set "A=@$place/h.csv:a"
+sed -i 5d "$place/h.csv"
+refuses "a row that is too long" 2 "h.csv:5: the line has more columns than the first line has names" "$motus" run $table --set "A=@$place/h.csv:a"
+refuses "lists of different lengths" 2 "2 points, but 3 values" "$motus" run $table --set "A=@$place/a.csv:2"
+refuses "a file that is not there" 1 "cannot read" "$motus" run $table --set "A=@$place/none.csv:2"
+refuses "several columns and no name" 2 "has several columns" "$motus" run $table --set "A=@$place/a.csv"
 gives "--set of components" 0 "$motus" run models/kepler.motus --json --set "r.x(0) = 5/4" --set "r'.y(0)=sqrt(2)/2" --until 7
 cp "$out" "$place/set"
 gives "... is --set of vectors" 0 "$motus" run models/kepler.motus --json --set "r(0) = (5/4, 0)" --set "r'(0) = (0, sqrt(2)/2)" --until 7

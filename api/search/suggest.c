@@ -13,6 +13,7 @@
 #include "api/why/evidence.h"
 #include "api/system/vector.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -73,7 +74,8 @@ static double change(scales *s, double later)
     return most;
 }
 
-/* Returns the rate of what depends on t, from its first four differences; NaN: they are rounding alone. */
+/* Returns the rate of what depends on t, from its first four differences; 0: it is straight here, as between two points
+ * of a table; NaN: they are rounding alone. */
 static double rate_at(scales *s, double spacing, double *samples)
 {
     static const double differences[4][5] = {/* all about the third sample, so that phases do not differ */
@@ -94,6 +96,7 @@ static double rate_at(scales *s, double spacing, double *samples)
             size[d] = fmax(size[d], fabs(sum));
         }
     if (!(size[0] + size[1] > 1e-11 * most)) return NAN;
+    if (!(size[2] + size[3] > 64 * DBL_EPSILON * most)) return 0;
     return sqrt((size[2] + size[3]) / (size[0] + size[1])) / spacing;
 }
 

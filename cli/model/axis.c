@@ -5,6 +5,7 @@
  *
  * Invariant: numbers are constant expressions of the language. Each is finite, and each count at least 1.
  */
+#include "cli/files/column.h"
 #include "cli/model/grid.h"
 #include "cli/words/complain.h"
 #include "cli/words/words.h"
@@ -102,12 +103,12 @@ static motus_status read_list(const reading *r, char *text, axis *a)
 static motus_status read_vary(const reading *r, char *text, axis *a)
 {
     if (*text == '@') {
-        char *colon = strrchr(text, ':');
-        if (colon) *colon = 0;
+        column values;
         a->kind = AXIS_LIST;
-        a->path = strdup(trim(text + 1));
-        if (!a->path) return complain_memory(r->err);
-        return axis_file(a->path, colon ? trim(colon + 1) : NULL, &a->list, &a->count, r->err);
+        const motus_status status = column_of(trim(text + 1), &a->path, &values, r->err);
+        a->list = values.value, a->count = values.count;
+        free(values.line);
+        return status;
     }
     char *parts[PARTS] = {NULL};
     char *copy = strdup(text);

@@ -45,7 +45,4 @@ void grid_extremes_free(double **values);
 motus_status axis_read(axis *, const char *option, const char *spec, motus_error *);
 void axis_free(axis *);
 
-/* Reads a column of a CSV file. `column` is its name, or its number from 1, or NULL for the only one. */
-motus_status axis_file(const char *path, const char *column, double **list, uint64_t *count, motus_error *);
-
 #endif

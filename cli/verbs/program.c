@@ -5,6 +5,7 @@
 #include "base/near.h"
 #include "cli/files/file.h"
 #include "cli/files/stop.h"
+#include "cli/model/columns.h"
 #include "cli/verbs/program.h"
 #include "cli/words/complain.h"
 #include "cli/words/options.h"
@@ -102,7 +103,11 @@ static motus_status dispatch(int argc, char **argv, bool as_json, bool *answered
         if (team_first(t)) help_verb(stdout, v->bit);
         status = file_flush_output(err);
     } else if (!status) {
-        status = v->go(&o, err);
+        columns files;
+        status = columns_set(&files, &o, err);
+        if (!status) status = v->go(&o, err);
+        if (status) columns_tell(&files, err);
+        columns_free(&files);
     }
     options_free(&o);
     return status;

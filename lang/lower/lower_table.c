@@ -150,6 +150,7 @@ static bool check_points(lowering *l, const tree *t, const numbers *of)
         source_complain(&l->model->source, MOTUS_ARGUMENT, &t->at,
                         "the points of a table rise, but in %s number %lld is %.17g and number %lld %.17g",
                         quote(l, &t->at, text), at - 1, x[k - 1], at, x[k]);
+        if (l->model->source.error) snprintf(l->model->source.error->variable, MOTUS_NAME_MAX, "%.40s[%lld]", text, at);
         return false;
     }
     return true;
