@@ -47,7 +47,7 @@ that "... with dots" eval "[ $(count 0 1) -gt 2 ] && [ $(count 0 1) -lt 50 ]"
 draws "by many of them" run models/pendulum.motus --method dop853 --until 1000 --error none
 that "... without, and without a key" eval "[ $(keys steps) = 0 ] && ! grep -q '^set key at' '$script'"
 draws "a velocity" run "$ball" --plot-of "t,y'"
-that "... whose comment is prose" says "set ylabel 'y'''" "$script"
+that "... whose comment is prose, has the unit of y over that of the time" says "set ylabel 'y'' (m/s)'" "$script"
 draws "a quantity and the height" run "$ball" --plot-of "t,E,y"
 that "... both" eval "[ $(keys '^title .(E|y).$') = 2 ]"
 that "... an axis of two units has neither" says "set ylabel ''" "$script"

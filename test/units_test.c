@@ -89,6 +89,9 @@ static void test_names(void **context)
                                 "r(0) = (1, 0); q(0) = 1 # kg\n"
                                 "x(0) = A               # m\n"
                                 "x'(0) = 1              # m/s: fast\n"
+                                "z(0) = 1               # km\n"
+                                "z'(0) = 1              # as much\n"
+                                "u(0) = 1\n"
                                 "invariant energy = x^2 # J\n"
                                 "untilted = 4           # kg\n"
                                 "step 0.1               # nine of them\n"
@@ -96,6 +99,8 @@ static void test_names(void **context)
     named(model, "x", false, "m");
     named(model, "x'", false, "m/s");
     named(model, "max(x)", false, "m");
+    named(model, "z'", false, "km/s"); /* that of z over that of the time */
+    named(model, "u'", false, "");
     named(model, "x(0)", false, "m");
     named(model, "energy", false, "J");
     named(model, "t", true, "s");

@@ -151,7 +151,8 @@ static void put_curve_style(FILE *out, const plot_panel *p, const plot_curve *c,
         fprintf(out, " with points pt 7 ps %s",
                 c->drawn > 20000               ? "0.12"
                 : c->drawn > 2000 && !c->shade ? "0.2"
-                                               : "0.4");
+                : c->drawn > 200               ? "0.4"
+                                               : "0.6");
         if (c->shade)
             fputs(" lc palette", out);
         else

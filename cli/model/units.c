@@ -139,6 +139,20 @@ static bool from_comment(const char *model, char *comment, char out[UNIT_MAX])
     return found;
 }
 
+/* Writes the unit of a velocity without a comment of its own: that of its position over that of the time. */
+static void per_time(const char *model, const char *name, char out[UNIT_MAX])
+{
+    char position[MOTUS_NAME_MAX + 64], above[UNIT_MAX], below[UNIT_MAX];
+    const char *prime = strchr(name, '\'');
+    if (!prime) return;
+    snprintf(position, sizeof position, "%.*s%s", (int)(prime - name), name, prime + 1);
+    units_of(model, position, false, above);
+    units_of(model, "", true, below);
+    if (above[0] && below[0] && !strchr(above, '/') && !strpbrk(below, "/ ") && strlen(above) <= 20 &&
+        strlen(below) <= 20)
+        snprintf(out, UNIT_MAX, "%.20s/%.20s", above, below);
+}
+
 void units_of(const char *model, const char *name, bool time, char out[UNIT_MAX])
 {
     char invariant[MOTUS_NAME_MAX + 80];
@@ -151,6 +165,7 @@ void units_of(const char *model, const char *name, bool time, char out[UNIT_MAX]
     else
         (void)(from_comment(model, comments_find(model, name), out) ||
                from_comment(model, comments_find(model, invariant), out));
+    if (!time && !out[0]) per_time(model, name, out);
 }
 
 void units_label(const char *model, const char *name, bool time, char *out, size_t size)
