@@ -236,6 +236,9 @@ static value lower_definition(lowering *l, const tree *t, model_definition *d)
     if (t->primes) {
         source_complain(&l->model->source, MOTUS_NAME, &t->at, "%s is a %s and has no primes", d->name,
                         d->kind == DEFINED_PARAMETER ? "parameter" : "quantity");
+        if (d->kind != DEFINED_PARAMETER)
+            HINT(l, "its slope is that of a function: %s(q) = …, and diff(%s(x), x); an equation %s' = … makes a state",
+                 d->name, d->name, d->name);
         HINT(l, "an equation %s%s = … would make it a state", d->name, t->primes == 2 ? "''" : "'");
         return wrong(l);
     }

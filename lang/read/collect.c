@@ -36,6 +36,9 @@ static bool add_state(model *m, const statement *s)
     if (state->order != s->primes) {
         source_complain(&m->source, MOTUS_NAME, &s->name_at, "%s has an equation for %s%s and another for %s%s",
                         s->name, s->name, state->order == 2 ? "''" : "'", s->name, s->primes == 2 ? "''" : "'");
+        if (s->value->kind == TREE_NUMBER)
+            source_hint(&m->source, "an initial value is written %s%s(0) = %g", s->name, s->primes == 2 ? "''" : "'",
+                        s->value->number);
         source_hint(&m->source, "one of them follows from the other: remove it");
     } else if (state->dims == 0) {
         twice(m, s, state->at);
@@ -56,6 +59,11 @@ static bool add_definition(model *m, const statement *s)
         source_complain(&m->source, MOTUS_NAME, &s->name_at,
                         "%s has an equation of motion in line %d and cannot be defined too", s->name,
                         source_line(&m->source, &known.state->at));
+        if (s->value->kind == TREE_NUMBER)
+            source_hint(&m->source, "its initial value is written %s(0) = %g", s->name, s->value->number);
+        if (s->value->kind == TREE_VECTOR)
+            source_hint(&m->source, "remove this line: %s is a vector if its initial value is one, %s(0) = (…, …)",
+                        s->name, s->name);
         if (s->value->kind == TREE_NAME && s->value->primes)
             source_hint(&m->source, "its equation makes %s a state: write %s' = %s here, and %s(0) in place of %s'(0)",
                         s->name, s->value->name, s->name, s->name, s->value->name);
@@ -327,8 +335,13 @@ static bool no_equation(model *m)
         if (m->statements.item[i].kind == STATEMENT_DEFINITION && derives(m->statements.item[i].value))
             meant = &m->statements.item[i];
     source_complain(s, MOTUS_SYNTAX, meant ? &meant->at : &(span){0, 0, 0}, "there is no equation of motion");
-    char text[80];
-    if (meant)
+    char text[80], right[80];
+    const tree *value = meant ? meant->value : NULL;
+    if (value && value->kind == TREE_COMPARE && value->operation == OP_EQ) /* eq = x'' + x == 0 */
+        source_hint(s, "write the equation alone, with one =: %s = %s",
+                    source_excerpt(s, &value->item[0]->at, text, sizeof text),
+                    source_excerpt(s, &value->item[1]->at, right, sizeof right));
+    else if (meant)
         source_hint(s, "this line defines %s; an equation has its derivative on the left: %s = %s", meant->name,
                     source_excerpt(s, &meant->value_at, text, sizeof text), meant->name);
     for (uint32_t i = 0; i < m->statements.count; i++)

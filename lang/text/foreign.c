@@ -56,6 +56,7 @@ static const char *trimmed(const source *s, uint32_t text, uint32_t from, uint32
     const char *bytes = s->texts[text].bytes;
     while (from < to && (blank(bytes[from]) || bytes[from] == ':')) from++;
     while (to > from && (blank(bytes[to - 1]) || bytes[to - 1] == ':')) to--;
+    if (to > from + 4 && !memcmp(bytes + to - 4, " end", 4)) to -= 4;
     if (from == to) return "…";
     if (bytes[from] == '(' && matching(&s->texts[text], from, 1) == to - 1) from++, to--;
     return source_excerpt(s, &(span){text, from, to}, out, SHOWN);
@@ -153,13 +154,13 @@ bool foreign_line(source *s, const span *at)
     const struct source_text *t = &s->texts[at->text];
     char name[MOTUS_NAME_MAX + 1], a[SHOWN];
     snprintf(name, sizeof name, "%.*s", (int)(at->to - at->from), t->bytes + at->from);
-    span after = foreign_after(s, at);
+    const span after = foreign_after(s, at);
+    source_excerpt(s, &after, a, sizeof a);
     if (listed("def function func fn lambda", name)) {
         source_hint(s, "a function is one line: f(t, y) = …");
     } else if (listed(
                    "let var const param parameter parameters real Real double float int integer constant state input",
                    name)) {
-        source_excerpt(s, &after, a, sizeof a);
         source_hint(s, "a definition has no word before its name: %s = …", a[0] ? a : "k");
     } else if (listed("model begin end equation equations initial algorithm class system return", name)) {
         source_hint(s, "a model is a list of lines, without this word: x'' = -x");
@@ -168,11 +169,15 @@ bool foreign_line(source *s, const span *at)
         source_hint(s, "a model has no commands: who runs it says what is drawn and written");
     } else if (listed("stop while repeat loop event on at whenever trigger", name)) {
         source_hint(s, "what happens during a run is an event: when x < 0: stop");
-    } else if (listed("der ddt deriv derivative Derivative", name)) {
-        const bool bracket = after.to > after.from + 1 && t->bytes[after.from] == '(';
-        const span of = {at->text, after.from + bracket, after.to - bracket};
-        source_excerpt(s, &of, a, sizeof a);
-        source_hint(s, "write %s' = …", a[0] && a[0] != ' ' ? a : "x");
+    } else if (listed("dt h tstep timestep delta_t", name)) {
+        source_hint(s, "the step of a method is written: step %s", after.to > after.from ? a : "0.1");
+    } else if (listed("tmax tend t_max t_end tfinal T_end duration", name)) {
+        source_hint(s, "the end of the run is written: until %s", after.to > after.from ? a : "10");
+    } else if (listed("der ddt deriv derivative Derivative diff D Dt", name)) {
+        uint32_t from = after.from + (after.to > after.from && t->bytes[after.from] == '('), to = from;
+        while (to < after.to && in_name(t->bytes[to])) to++;
+        source_excerpt(s, &(span){at->text, from, to}, a, sizeof a);
+        source_hint(s, "derivatives are written with primes: %s' = …", a[0] ? a : "x");
     } else {
         return false;
     }

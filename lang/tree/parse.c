@@ -85,6 +85,8 @@ static bool wrong_juxtaposition(parser *p, const tree *product)
         quote(p, &p->token.at, b);
         COMPLAIN(p, &at, "a number comes first in a product: %s %s is not read", a, b);
         if (list) HINT(p, "the entries of a list have commas between them: [1, 2]; a matrix is [[1, 2], [3, 4]]");
+        if (left->kind == TREE_NAME && !strcmp(left->name, "to"))
+            HINT(p, "a run has two lines: from 0, and until %s", b);
         if (p->when && left->kind == TREE_NAME && product != left)
             HINT(p, "an event is an equation or a condition: when x = 0: …, when x > 0: …");
         if (quotient(product))

@@ -237,7 +237,9 @@ static void hint_product(parser *p, const tree *before)
     const span after = foreign_after(p->source, &(span){p->token.at.text, p->token.at.from, p->token.at.from});
     quote(p, &before->at, a);
     quote(p, &p->token.at, b);
-    if (words_function(b) >= 0)
+    if (!strcmp(b, "diff"))
+        HINT(p, "derivatives by the time are written with primes: x', x''");
+    else if (words_function(b) >= 0)
         HINT(p, "write %s(…), without %s", b, a);
     else if (p->token.kind == TOKEN_NAME)
         HINT(p, "the product of two vectors is written dot(%s, %s)", a, quote(p, &after, b));

@@ -16,7 +16,8 @@ static void parse_end(parser *p, int line)
         if (next.kind == TOKEN_NUMBER && p->last.kind == TOKEN_NUMBER)
             HINT(p, "a decimal number is written with a point: %s.%s; a vector in brackets: (%s, %s)",
                  quote(p, &p->last.at, before), quote(p, &next.at, text), before, text);
-        if (next.kind == TOKEN_NAME) HINT(p, "one statement a line, or ; between them, not a comma");
+        if (next.kind == TOKEN_NAME || next.kind == TOKEN_NEWLINE || next.kind == TOKEN_END)
+            HINT(p, "one statement a line, or ; between them, not a comma");
         HINT(p, "a vector stands in brackets: (1, 2)");
         return;
     }
@@ -29,6 +30,7 @@ static void parse_end(parser *p, int line)
         COMPLAIN(p, &p->token.at, "a second = in one statement");
         if (line != source_line(p->source, &p->token.at))
             HINT(p, "the statement of line %d goes on here: its line ends with an operator, a comma or =", line);
+        if (spelled(p, &p->last, "t")) HINT(p, "an initial value is written x(0) = 1");
         HINT(p, "one statement a line, or ; between them; to compare write ==");
         return;
     }
@@ -103,9 +105,12 @@ static void parse_method(parser *p, statement *s)
 static void parse_setting(parser *p, statement *s)
 {
     if (is(p, '=')) {
-        char text[80];
+        char text[80], number[80];
+        lexer ahead = p->lexer;
+        const token next = lex_next(&ahead);
         COMPLAIN(p, &p->token.at, "a setting is written without =");
-        HINT(p, "write: %s 0.01", quote(p, &p->last.at, text));
+        HINT(p, "write: %s %s", quote(p, &p->last.at, text),
+             next.kind == TOKEN_NUMBER ? quote(p, &next.at, number) : "0.01");
         return;
     }
     p->error = s->kind == STATEMENT_TOLERANCE || s->kind == STATEMENT_ACCURACY;
@@ -128,7 +133,7 @@ static bool parse_leibniz(parser *p, const statement *s)
     static const char *const words[] = {"der", "ddt", "deriv", "derivative", "Derivative"};
     for (size_t i = 0; i < sizeof words / sizeof *words; i++)
         if (!strcmp(s->name, words[i]) && is(p, '(')) {
-            COMPLAIN(p, &s->at, "derivatives are written with primes");
+            COMPLAIN(p, &s->at, "%s(…) is not read", s->name);
             return foreign_line(p->source, &s->name_at);
         }
     if (s->name[0] != 'd' || !(is(p, '/') || is(p, '^'))) return false;
@@ -168,6 +173,9 @@ static void parse_left(parser *p, statement *s)
     if (reserved || words_function(s->name) >= 0) {
         if (words_function(s->name) >= 0 && strcmp(s->name, "if") && parse_sum_left(p, s)) return;
         COMPLAIN(p, &s->name_at, "%s is a word of the language and cannot be defined", s->name);
+        if (!strcmp(s->name, "diff")) foreign_line(p->source, &s->name_at);
+        if (!strcmp(s->name, "for"))
+            HINT(p, "a range stands behind a line: x[i](0) = 0 for i = 1..N; the end of a run is written: until 10");
         if (!strcmp(s->name, "if"))
             HINT(p, "for an event write when y < 0: y' = -y'; for a value with two cases if(y < 0, a, b)");
         HINT(p, "take another name");
@@ -190,6 +198,7 @@ static void parse_left(parser *p, statement *s)
     if (is(p, '(') && !(p->token.blank && s->primes == 2)) {
         if (p->token.blank) {
             COMPLAIN(p, &p->token.at, "the bracket of an initial value stands directly behind the name");
+            foreign_line(p->source, &s->name_at);
             HINT(p, "write %s%s(0) = …", s->name, s->primes == 1 ? "'" : "");
             return;
         }
@@ -248,6 +257,8 @@ static void parse_left(parser *p, statement *s)
         if ((p->token.kind == TOKEN_NUMBER || p->token.kind == TOKEN_NAME) &&
             words_nearest_statement(s->name, near, sizeof near))
             HINT(p, "did you mean %s?", near);
+        if (is(p, '*') || p->token.kind == TOKEN_NAME)
+            HINT(p, "a left side is one name, or it has a derivative: k = 2, m x'' = F");
     }
 }
 

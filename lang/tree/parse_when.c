@@ -107,6 +107,7 @@ static void parse_assignment(parser *p, action *a)
             return;
         }
         unexpected(p, "=");
+        if (is(p, ':')) HINT(p, "write one = alone");
         HINT(p, "what happens is record, stop, stop after 10, or an assignment: x' = -x'");
         return;
     }
