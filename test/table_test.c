@@ -6,6 +6,8 @@
 #include "test/given.h"
 #include "test/given_cache.h"
 
+#include <stdbool.h>
+
 #define POINTS 4001
 static double record[POINTS];
 
@@ -335,6 +337,29 @@ static void bad_tables(void **state)
     refused("diff(interp(t, T, A), A[2])", "depends on A[2]");
 }
 
+/* motus check says which order steps of one size keep: that which the table leaves, not that of the method. */
+static void explained(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *force, *says;
+        bool others;
+    } cases[] = {{"interp(t, T, A)", "order 2 is left", false},
+                 {"spline(x, T, A)", "order 4 is left", false},
+                 {"spline(t, T, A, hold)", "order 2 is left", false},
+                 {"spline(t, T, A) + interp(t, T, A)", "order 2 is left", false},
+                 {"spline(t, T, A) + |x|", "order 4 is left", true}};
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        char text[400];
+        snprintf(text, sizeof text, "%sx'' = %s\nx(0) = 1; x'(0) = 0\n", lists, cases[k].force);
+        motus_system *s = given_text(text);
+        const char *told = motus_explain(s);
+        assert_non_null(strstr(told, cases[k].says));
+        assert_int_equal(strstr(told, "the equations are not smooth") != NULL, cases[k].others);
+        motus_system_destroy(s);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -346,6 +371,7 @@ int main(void)
         cmocka_unit_test(set),
         cmocka_unit_test(outside),
         cmocka_unit_test(bad_tables),
+        cmocka_unit_test(explained),
     };
     open_shared_cache();
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,6 +1,8 @@
 /* The analysis of a model in words. */
 #include "api/calls/explain.h"
 #include "api/system/system.h"
+#include "lang/graph/graph_walk.h"
+#include "lang/model/table.h"
 
 #include <string.h>
 
@@ -103,6 +105,46 @@ static void say_gradient(sentences *w, const motus_system *s)
                       : ", so an energy exists, though it may change on a way round a singularity of the force");
 }
 
+/* Tells which kinks the accelerations have: those of tables by interp (*linear) and by spline (*curved), and others. */
+static bool find_kinks(const model *m, bool *linear, bool *curved, bool *others)
+{
+    const unsigned moving = DEP_TIME | (DEP_STATE & ~DEP_MODE);
+    bool known = true;
+    for (size_t k = 0; k < m->accel_count && known; k++) {
+        graph_walk w;
+        known = graph_order(m->graph, &m->accel[k].value, 1, moving, true, &w);
+        for (uint32_t i = 0; i < w.count; i++) {
+            const graph_node *n = graph_at(m->graph, w.nodes[i]);
+            const node chosen = n->op == OP_SELECT ? n->a : w.nodes[i];
+            if (!operation_is((operation)n->op, BENDS) || !(graph_deps(m->graph, chosen) & moving)) continue;
+            *others |= n->op != OP_FIND && n->op != OP_ENTRY;
+            for (uint32_t j = 0; n->op == OP_ENTRY && j < m->table_count; j++) {
+                if (m->tables[j]->array != graph_at(m->graph, n->b)->a) continue;
+                *linear |= m->tables[j]->kind == TABLE_LINEAR || m->tables[j]->hold;
+                *curved |= m->tables[j]->kind == TABLE_SPLINE;
+            }
+        }
+        give(&m->arena->allocator, w.nodes);
+    }
+    return known;
+}
+
+static void say_kinks(sentences *w, const model *m)
+{
+    bool linear = false, curved = false, others = false;
+    if (!find_kinks(m, &linear, &curved, &others)) return;
+    if (linear || curved)
+        sentences_say(
+            w,
+            "the force contains tables: adaptive methods end their steps at the points; of methods with steps "
+            "of one size, which lead across, order %d is left\n",
+            linear ? 2 : 4);
+    if (others || !(linear || curved))
+        sentences_say(w,
+                      "the equations are not smooth: they contain abs, min, max, floor, mod, sign, if or a comparison; "
+                      "high orders lose their order where these switch\n");
+}
+
 static void say_forces(sentences *w, const motus_system *s)
 {
     const traits *t = &s->problem.traits;
@@ -133,10 +175,7 @@ static void say_forces(sentences *w, const motus_system *s)
     }
     if (t->affine && !t->constant) sentences_say(w, "the equations are linear\n");
     if (t->gradient && !t->constant) say_gradient(w, s);
-    if (!t->smooth)
-        sentences_say(
-            w, "the equations are not smooth: they contain abs, min, max, floor, mod, sign, if or a comparison; high "
-               "orders lose their order where these switch\n");
+    if (!t->smooth) say_kinks(w, s->model);
     if (t->has_exact)
         sentences_say(
             w, s->model->exact_recognised ? "the exact motion is known: constant acceleration\n"
