@@ -90,6 +90,16 @@ that "... has one scale" equal
 draws "... of two units" run "$place/two.motus" --plot-of "x,x'"
 that "... has two" eval "! grep -q '^set [xy]range' '$script'"
 
+printf "%s\n" "y'' = -9.81" "q'' = -q" "a'' = -a" "b'' = -b" "y(0) = 1000 # m" "q(0) = 0.01 # m" "a(0) = 1 # rad" "b(0) = 0.5 # rad" \
+    "y'(0) = 0; q'(0) = 0; a'(0) = 0; b'(0) = 0" 'method dop853' 'until 9' >"$place/mixed.motus"
+draws "numbers of two units, and one far smaller than another" run "$place/mixed.motus" --error none
+that "... in three panels" eval "[ $(grep -c '^plot' "$script") = 3 ] && [ $(grep -c "^set title 'motion'" "$script") = 3 ]"
+that "... each with its unit" eval "[ \"\$(grep '^set ylabel' '$script' | cut -d\\' -f2 | tr '\n' ' ')\" = 'y (m) q (m) (rad) ' ]"
+that "... with their dots" eval "[ $(count 2 0) -gt 1000 ] && [ $(count 2 1) -lt 150 ] && [ $(count 2 2) = $(count 2 0) ]"
+printf "x'' = -x\nx(1e9) = 1\nx'(1e9) = 0\nuntil 1e9 + 20\nmethod rk4\nstep 0.25\n" >"$place/late.motus"
+draws "late times" run "$place/late.motus" --error none
+that "... differ in the numbers of the axis" says "set format x '%.11g'" "$script"
+
 # --- compare ------------------------------------------------------------------------------------------------------------------------
 rows() { sed -n "/^  method .*evaluations/,/^$/p" "$out" | sed '1d;$d'; }
 gives "compare" 0 "$motus" compare models/spring.motus

@@ -103,6 +103,14 @@ static bool anything(const plot_panel *p)
     return false;
 }
 
+/* Lets the numbers of an axis have as many digits as its ends differ in, and two more. */
+static void put_format(FILE *out, char axis, range r)
+{
+    const double most = fmax(fabs(r.low), fabs(r.high)), wide = r.high - r.low;
+    const int digits = wide > 0 ? 3 + (int)ceil(log10(most / wide)) : 0;
+    if (digits > 6) fprintf(out, "set format %c '%%.%dg'\n", axis, digits < 15 ? digits : 15);
+}
+
 /* Gives the axes one scale, by more room along one of them; not if the motion would be a tenth of its length high. Time
  * axes end where the curves end. A low panel has room for three or four numbers. */
 static void put_ranges(FILE *out, const plot_panel *p, const layout_box *box)
@@ -118,6 +126,9 @@ static void put_ranges(FILE *out, const plot_panel *p, const layout_box *box)
     } else if (p->curve_count && (p->curves[0].timelike || p->log_x) && wide > 0) {
         fprintf(out, "set xrange [%.12g:%.12g]\n", x.low, x.high);
     }
+    /* numbers that differ late need more digits than gnuplot's six */
+    if (!p->logarithmic && !p->log_x) put_format(out, 'x', x);
+    if (!p->logarithmic && !p->log_y) put_format(out, 'y', y);
     /* what lies deeper is 0 but for its rounding */
     if (p->log_y && y.high > 0 && !(y.low > DEEPEST * y.high)) fprintf(out, "set yrange [%.3g:]\n", DEEPEST * y.high);
     if (p->low && high > 0) {

@@ -356,6 +356,7 @@ static bool add_everything(figure *f)
         motus_variable v = motus_default_variable();
         if (motus_variable_at(system, k, &v) == MOTUS_OK && !add_variable(f, &v, &s)) return false;
     }
+    f->shared = s.scalars;
     return add_drifts(f);
 }
 
@@ -475,7 +476,7 @@ motus_status figure_begin(figure *f, const load *model, const options *o, motus_
     const motus_run_statistics now = motus_run_now(run);
     const int64_t steps = now.steps_total;
     const double way = until - motus_run_time(run);
-    *f = (figure){.model = model};
+    *f = (figure){.model = model, .shared = SIZE_MAX};
     const bool few = steps > 0 && steps < SMOOTH, smooth = figure_smooth(now.method);
     const record between = few ? record_between(now.step, way, SMOOTH / steps + 1) : record_for(steps, way, 1);
     f->fine = record_with_jumps(few && smooth ? between : record_for(steps, way, FINE_SAMPLES));
@@ -578,6 +579,7 @@ motus_status figure_draw(figure *f, motus_run *run, double known_until, const ch
             for (c->band_count = 0; c->at && c->band_count < f->bars.rows; c->band_count++)
                 if (!isfinite(c->error[c->band_count])) break;
         }
+    if (!split_panels(f)) return complain_memory(err);
     const motus_status status = marks_add(f, run, err);
     if (status) return status;
     for (size_t i = 0; i < f->heat_count; i++)

@@ -55,6 +55,7 @@ typedef struct figure {
     record steps;              /* for the dots at steps, and the changes of invariants */
     record smooth;             /* for the exact motion, if the curves of the method are straight lines; else empty */
     double *t, *coarse_t, *bars_t, *steps_t;
+    size_t shared;  /* the panel of the numbers of the state; SIZE_MAX: there is none */
     bool dotted;    /* the steps are drawn, if there are not many */
     double **rooms; /* of marks */
     size_t room_count;
@@ -92,6 +93,10 @@ typedef struct figure_place {
 /* Finds the columns of a variable. The prefix is "" or "exact ", the suffix "" or "'". Returns false if there are no
  * such columns. */
 bool figure_find(const load *, const motus_variable *, const char *prefix, const char *suffix, figure_place *);
+
+/* split.c: divides the panel that several numbers share by their units and sizes, when its curves have their points.
+ * Returns false if memory runs out. */
+bool split_panels(figure *);
 
 /* marks.c: adds the events of a finished run to the figure, whose curves have their points. */
 motus_status marks_add(figure *, motus_run *, motus_error *);

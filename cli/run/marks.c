@@ -113,11 +113,18 @@ static motus_status mark_jumps(figure *f, plot_panel *p, motus_error *err)
 motus_status marks_add(figure *f, motus_run *run, motus_error *err)
 {
     const int64_t events = motus_run_events(run);
+    motus_system *system = f->model->system;
+    motus_switch one = motus_default_switch();
+    /* a switch of the force ends a step too, and is no event */
+    const bool acts = motus_explain_events(system)[0] && motus_switch_at(system, 0, &one) != MOTUS_OK;
     motus_status status = MOTUS_OK;
     for (size_t i = 0; !status && events <= MARKS && i < f->plot.count; i++) {
         plot_panel *p = &f->plot.panels[i];
         if (p->low || p->curve_count == 0) continue;
-        status = events > 0 ? mark_events(f, p, run, err) : mark_jumps(f, p, err);
+        if (events > 0)
+            status = mark_events(f, p, run, err);
+        else if (acts)
+            status = mark_jumps(f, p, err);
     }
     return status;
 }
