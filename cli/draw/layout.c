@@ -14,7 +14,7 @@ enum {
     ABOVE = 30,   /* for the title */
     BELOW = 66,   /* for the numbers and the name of the horizontal axis */
     TOP = 38,     /* for the figure's title */
-    RIGHT = 28,   /* without a key */
+    RIGHT = 44,   /* without a key */
     SCALE = 140,  /* of the colours beside a map, with its name */
     LETTER = 9,   /* the mean width of one */
     LINE = 19,    /* of a key */

@@ -14,7 +14,7 @@
 #include <string.h>
 
 enum {
-    FINE_SAMPLES = 200000,
+    FINE_SAMPLES = 60000,
     SMOOTH = 4000, /* samples of a run, at least, so that few steps do not look like a polygon */
     DOTS = 150,    /* steps that are seen as dots */
     STEPS = 8000,  /* steps of which the changes of invariants are drawn, at most: between steps they tell of the dense
