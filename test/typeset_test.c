@@ -227,6 +227,8 @@ static void statements(void **state)
         {"step pi/1000", "step_mfrac{π|1000}"},
         {"every 10 steps", "every_10_steps"},
         {"every 0.1", "every_0.1"},
+        {"time s_1", "time_msub{s|1}"},
+        {"z(0) = 1\nz'(0) = 0\nn z'' + b z = 0", "msup{z|′′}=mfrac{{−b~z}|n}"},
         {"method newmark(1/4, 1/2)", "method_newmark(1/4, 1/2)"},
         {"when y = 0: record", "when_y=0:__record"},
         {"when x = y/2 falling as hit_0: x' = -x', stop after 3",

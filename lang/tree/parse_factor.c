@@ -426,6 +426,7 @@ tree *parse_factor(parser *p)
             if (left_open(p)) return nothing(p);
             COMPLAIN(p, &at, "%s is a word of the language and cannot stand here", text);
             if (!strcmp(text, "for")) HINT(p, "something is missing before it");
+            if (!strcmp(text, "not")) HINT(p, "as a number a negation stands in brackets: (not x > 0)");
             return nothing(p);
         }
         return parse_name(p);
