@@ -59,6 +59,9 @@ static void parse_occasion(parser *p, when *w)
     if (w->kind == WHEN_CONDITION) {
         char text[80];
         COMPLAIN(p, &p->token.at, "%s stands behind an equation", quote(p, &p->token.at, text));
+        char condition[80];
+        if (word(p, "falling"))
+            HINT(p, "a condition happens when it becomes true: write when not (%s)", quote(p, &w->left->at, condition));
         HINT(p, "a condition happens when it becomes true; write x = 0 %s for one direction", text);
         return;
     }
