@@ -90,7 +90,7 @@ that "... has one scale" equal
 draws "... of two units" run "$place/two.motus" --plot-of "x,x'"
 that "... has two" eval "! grep -q '^set [xy]range' '$script'"
 
-printf "%s\n" "y'' = -9.81" "q'' = -q" "a'' = -a" "b'' = -b" "y(0) = 1000 # m" "q(0) = 0.01 # m" "a(0) = 1 # rad" "b(0) = 0.5 # rad" \
+printf "%s\n" "y'' = -9.81" "q'' = -q" "a'' = -a" "b'' = -b" "y(0) = 1000 # m" "q(0) = 0.01 # m" "a(0) = 800 # rad" "b(0) = 500 # rad" \
     "y'(0) = 0; q'(0) = 0; a'(0) = 0; b'(0) = 0" 'method dop853' 'until 9' >"$place/mixed.motus"
 draws "numbers of two units, and one far smaller than another" run "$place/mixed.motus" --error none
 that "... in three panels" eval "[ $(grep -c '^plot' "$script") = 3 ] && [ $(grep -c "^set title 'motion'" "$script") = 3 ]"
@@ -109,6 +109,8 @@ that "... some of each family" eval "rows | grep -q '^  beeman ' && rows | grep 
 that "... not those that others of their family beat" eval "! rows | grep -qE '^  (suzuki4|explicit-euler|newmark)'"
 gives "compare for a narrow terminal" 0 "$motus" compare models/kepler.motus
 that "... is 80 columns wide" eval "! grep -qE '.{81}' '$out'"
+gives "all of it" 0 "$motus" compare models/kepler.motus --all
+that "... is too" eval "! grep -qE '.{81}' '$out'"
 gives "compare --all" 0 "$motus" compare models/spring.motus --all
 that "... every method" eval "[ \$(rows | wc -l) = 36 ] && lacks 'methods:'"
 gives "compare --methods" 0 "$motus" compare models/spring.motus --methods suzuki4,heun

@@ -48,8 +48,8 @@ static choose_row *choices(const motus_comparison *c, const studies *s, bool pic
 
 static table *work_table(const motus_comparison *c, const choose_row *rows)
 {
-    static const char *const heads[] = {"method", "order", "step", "steps", "evaluations", "time", "reversal"};
-    table *t = table_create("lrrrrrr");
+    static const char *const heads[] = {"method", "order", "step", "steps", "evaluations", "time"};
+    table *t = table_create("lrrrrr");
     for (size_t i = 0; i < sizeof heads / sizeof *heads; i++) table_cell(t, heads[i]);
     for (size_t k = 0; k < c->row_count; k++) {
         const motus_compare_row *r = c->rows[k];
@@ -62,7 +62,6 @@ static table *work_table(const motus_comparison *c, const choose_row *rows)
         table_integer(t, r->steps);
         table_integer(t, r->evaluations);
         table_cell(t, r->status ? "-" : spent);
-        table_number(t, r->status ? NAN : r->reversal, -2);
     }
     return t;
 }
@@ -71,10 +70,11 @@ static table *work_table(const motus_comparison *c, const choose_row *rows)
 static table *error_table(const motus_comparison *c, const choose_row *rows, bool positions, bool first_order)
 {
     static const char *const heads[] = {"x, max", "x, end", "v, max", "v, end", "s, max", "s, end"};
-    table *t = table_create(positions && first_order ? "lrrrrrr" : positions ? "lrrrr" : "lrr");
+    table *t = table_create(positions && first_order ? "lrrrrrrr" : positions ? "lrrrrr" : "lrrr");
     table_cell(t, "error of");
     for (size_t i = 0; i < sizeof heads / sizeof *heads; i++)
         if (i < 4 ? positions : first_order) table_cell(t, heads[i]);
+    table_cell(t, "reversal");
     for (size_t k = 0; k < c->row_count; k++) {
         const motus_compare_row *r = c->rows[k];
         const double errors[] = {r->error_max_x,   r->error_final_x, r->error_max_v,
@@ -83,6 +83,7 @@ static table *error_table(const motus_comparison *c, const choose_row *rows, boo
         table_cell(t, r->method);
         for (size_t i = 0; i < sizeof errors / sizeof *errors; i++)
             if (i < 4 ? positions : first_order) table_number(t, r->status ? NAN : errors[i], -2);
+        table_number(t, r->status ? NAN : r->reversal, -2);
     }
     return t;
 }
@@ -147,8 +148,7 @@ static motus_status print_tables(const studies *s, const void *result, motus_err
     if (!rows) return complain_memory(err);
     studies_title(s, c->reference, c->reference_error);
     bool good = print_table(work_table(c, rows), colours);
-    if (c->reference && !isnan(c->reference_error))
-        good = print_table(error_table(c, rows, nx > 0, motus_velocities(system) > nx), colours) && good;
+    good = print_table(error_table(c, rows, nx > 0, motus_velocities(system) > nx), colours) && good;
     const size_t invariants = invariants_of(c);
     for (size_t i = 0; i < invariants; i += TOGETHER)
         good = print_table(drift_table(c, rows, i, invariants), colours) && good;
