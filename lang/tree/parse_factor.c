@@ -287,18 +287,19 @@ static bool applied_wrongly(parser *p, const tree *name)
 {
     char a[80], b[80];
     lexer ahead = p->lexer;
-    const token first = lex_next(&ahead), second = failed(p) ? first : lex_next(&ahead), third = lex_next(&ahead);
+    const token first = lex_next(&ahead), second = failed(p) ? first : lex_next(&ahead);
     if (failed(p)) return true;
-    quote(p, &name->at, a);
     if (first.kind == TOKEN_CHARACTER && first.character == ')') {
         COMPLAIN(p, &p->token.at, "this bracket is empty");
         HINT(p,
-             strncmp(a, "rand", 4) ? "a quantity without arguments is written %s"
-                                   : "a force has no random numbers: it is a function of the state and the time",
-             a);
+             strncmp(name->name, "rand", 4)
+                 ? "a quantity without arguments is written %s"
+                 : "a force has no random numbers: it is a function of the state and the time",
+             quote(p, &name->at, a));
     } else if (first.kind == TOKEN_NAME && second.kind == TOKEN_CHARACTER && second.character == '=') {
+        const token start = lex_next(&ahead);
         COMPLAIN(p, &second.at, "the bracket of an initial value holds the start alone");
-        HINT(p, "write %s(%s)", a, quote(p, &third.at, b));
+        HINT(p, "write %s(%s)", quote(p, &name->at, a), quote(p, &start.at, b));
     }
     return failed(p);
 }

@@ -257,7 +257,7 @@ static void parse_left(parser *p, statement *s)
         if ((p->token.kind == TOKEN_NUMBER || p->token.kind == TOKEN_NAME) &&
             words_nearest_statement(s->name, near, sizeof near))
             HINT(p, "did you mean %s?", near);
-        if (is(p, '*') || p->token.kind == TOKEN_NAME)
+        if (is(p, '*') || is(p, '/') || is(p, '+') || is(p, '-') || is(p, '^') || p->token.kind == TOKEN_NAME)
             HINT(p, "a left side is one name, or it has a derivative: k = 2, m x'' = F");
     }
 }
