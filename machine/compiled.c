@@ -442,10 +442,11 @@ motus_status compiled_machine(compiled *c, const chosen *chosen, machine *out, m
     object *o = object_of(c, chosen, 0);
     if (!o) return fail(err, MOTUS_TOOL, "the model could not be compiled: %s", c->note);
     /* One pool of threads serves all runs of the model. Threads beyond the processors gain nothing. */
-    const int processors = parallel_processors();
-    if (chosen->threads > 1 && c->tiling && !c->thread_pool)
+    if (chosen->threads > 1 && c->tiling && !c->thread_pool) {
+        const int processors = parallel_processors();
         c->thread_pool = parallel_pool_create(chosen->threads > processors ? chosen->threads : processors,
                                               &c->model->arena->allocator);
+    }
     o->host.thread_pool = c->thread_pool;
     c->problem.traits = c->interpreted->traits;
     *out = (machine){.name = "compiled", .problem = &c->problem, .body = &o->body, .host = &o->host};
