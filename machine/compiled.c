@@ -340,7 +340,10 @@ static const char *wanted_text(compiled *c, const chosen *asked, emit *e, object
     const purpose p = purpose_of(c, &longer);
     void *handle = cache_load(text, e->text.length, CACHE_KEPT | loops_of(c, &p), c->note, sizeof c->note);
     *loaded = handle ? adopt(c, &p, e, handle) : NULL;
-    return *loaded ? NULL : text_of(c, asked, e);
+    if (*loaded) return NULL;
+    text = text_of(c, asked, e);
+    e->longer = true;
+    return text;
 }
 
 static object *object_of(compiled *c, const chosen *chosen, int how)

@@ -465,6 +465,7 @@ bool compose(emit *e, const composition *c)
                windowed = forced && c->locality && c->locality->divisible;
     const bool local = windowed && c->locality->local && !c->model->driven && by_number(c);
     e->literal = structure;
+    e->uses_two = false;
     e->arrays = c->model->arrays;
     e->vectors = !lanes && compose_width() > 1;
     e->series_may_be_wide = !c->model->driven;
@@ -475,8 +476,10 @@ bool compose(emit *e, const composition *c)
         e->along = c->programs[i].along;
         e->windowed = !i && windowed;
         e->series = c->programs[i].series ? plan.expands + 1 : 0;
+        e->two = !i && forced && structure && !lanes && c->written && c->chosen->row->adaptive;
         emit_program(e, c->programs[i].program, c->programs[i].name, c->programs[i].terms);
     }
+    e->longer = e->longer || e->uses_two;
     if (lanes) e->used_lanes |= OPERATION_BIT(MIN) | OPERATION_BIT(MAX); /* reductions use them */
     e->series = plan.expands;
     const emit_text bodies = *t;
@@ -511,6 +514,7 @@ bool compose(emit *e, const composition *c)
     add_text(t, "step/work.h");
     if (e->series) add_series(e, e->series + 1);
     add_text(t, "machine/text/host.h");
+    if (e->uses_two) add_text(t, "machine/text/two.h");
     if (e->wraps)
         emit_add(t, "#define WRAPS\n/* The mathematical k mod n; it mostly is k. */\n"
                     "static inline int64_t wrapped(int64_t k, int64_t n) { return (uint64_t)k < (uint64_t)n ? k : (k "

@@ -126,10 +126,15 @@ static void through_both_texts(void **unused)
     static const char events[] = "x'' = -x/(x^2 + y^2)^1.5 + 0.1 x y\ny'' = -y/(x^2 + y^2)^1.5\nx(0) = 1\nx'(0) = 0.1\n"
                                  "y(0) = 0.3\ny'(0) = 0.9\nwhen y = 0.5 rising: y' = 0.7 y'\nwhen x = 2: record\n"
                                  "step 0.05\nuntil 2\n";
+    /* divisions, roots and products of them two at a time, some of them without a partner */
+    static const char centres[] = "d = sqrt((x - 1)^2 + y^2)\ne = sqrt((x + 2)^2 + y^2/(1 + x^2))\n"
+                                  "x'' = -(x - 1)/d^3 - 0.3 (x + 2)/e^3 + 1/(1 + sqrt(1 + y'^2/(1 + e)))\n"
+                                  "y'' = -y/d^3 - 0.3 y/e^3 + x'/(2 + d)\nx(0) = 0.2\ny(0) = 0.6\nx'(0) = 0.3\n"
+                                  "y'(0) = -0.8\nstep 0.05\nuntil 2\n";
     static const struct {
         const char *text, *method;
-    } pairs[] = {{pair, "dop853"},   {friction, "verner9"}, {magnet, "dop853"}, {pair, "kahan-li8-reversible"},
-                 {events, "taylor"}, {events, "verner8"}};
+    } pairs[] = {{centres, "verner9"},           {pair, "dop853"},   {friction, "verner9"}, {magnet, "dop853"},
+                 {pair, "kahan-li8-reversible"}, {events, "taylor"}, {events, "verner8"}};
     for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++) {
         end ends[2];
         for (int both = 0; both < 2; both++) {

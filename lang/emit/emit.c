@@ -91,6 +91,7 @@ bool emit_program(emit *e, const program *p, const char *name, bool terms)
                 w.fixed[item] = emit_wide(&w, w.plan.items.at[item].n) ? e->fixed_lanes++ : e->fixed++;
             }
             emit_values(&w);
+            if (e->two) emit_two_order(&w);
             write_functions(&w, name, terms);
         }
     }

@@ -51,6 +51,8 @@ typedef struct emit {
     /* loops may take several values of their index at once, by machine/text/index_lanes.h */
     bool vectors;
     bool uses_vectors; /* some loop takes several values of its index at once */
+    bool two;          /* divisions and roots of the next program are taken two at a time */
+    bool uses_two;     /* some are, by machine/text/two.h */
     bool longer;       /* there is a text that takes a compiler longer, and is faster: this one or another */
     /* how many numbers the Taylor series of the next program have; 0: it is not in series */
     int series;

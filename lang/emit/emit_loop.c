@@ -265,6 +265,7 @@ void emit_region(writer *w, uint32_t region)
         uint32_t item = w->plan.order[r->items + k];
         plan_item *i = &w->plan.items.at[item];
         if (!belongs(w, i, region)) continue;
+        if (w->twos && region == AT_RUN && w->part == RUNNING && emit_two(w, k)) continue;
         const uint32_t inside = plan_inside(&w->plan, i), total = plan_updates(&w->plan, i);
         if (inside != NONE && i->reg == NONE) write_loop(w, inside);
         w->region = region;

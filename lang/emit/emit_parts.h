@@ -1,7 +1,7 @@
 /* Shared by the files that write C. Each uses only those before it on this list: emit_place.c (text, places),
  * emit_nature.c (how wide values are), emit_exact.c (operations that a number makes exact), emit_value.c (values),
- * emit_pair.c (pairs of cells), emit_loop.c (regions, loops, sums), emit_series.c and emit_series_pair.c (Taylor
- * series), emit.c (the functions). */
+ * emit_two.c (two operations at a time), emit_pair.c (pairs of cells), emit_loop.c (regions, loops, sums),
+ * emit_series.c and emit_series_pair.c (Taylor series), emit.c (the functions). */
 #ifndef LANG_EMIT_EMIT_PARTS_H
 #define LANG_EMIT_EMIT_PARTS_H
 
@@ -31,8 +31,9 @@ typedef struct writer {
      * `sharing` is that over the terms of one cell; its series and those of the pairs have separate frames. */
     struct shared_value *shared;
     uint32_t sharing, pair_frame, own_frame, fronts;
-    bool in_pairs;   /* the values of pairs are being written */
-    bool one_by_one; /* lanes are written in a loop over l, so a place is that of lane l */
+    bool in_pairs;          /* the values of pairs are being written */
+    struct emit_twos *twos; /* of emit_two.c, if the values of region AT_RUN are in its order; else NULL */
+    bool one_by_one;        /* lanes are written in a loop over l, so a place is that of lane l */
 } writer;
 
 enum {
@@ -83,6 +84,12 @@ void emit_values(writer *);
 void emit_operand(writer *, node, node user, char out[48]);
 void emit_outputs(writer *, uint32_t first);
 void emit_item(writer *, uint32_t item);
+
+typedef struct emit_twos emit_twos;
+/* emit_two.c. emit_two_order puts the values of region AT_RUN in an order; emit_two writes number `at` of them and one
+ * that follows as one operation, if there is one. True: number `at` is written. */
+void emit_two_order(writer *);
+bool emit_two(writer *, uint32_t at);
 
 /* emit_pair.c. Returns whether all sums of a loop leave out the term at which two indices are equal, and the levels of
  * these. */
