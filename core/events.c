@@ -503,8 +503,10 @@ static double now(const events *e) { return e->left.t + e->way * 4 * events_ulp(
 /* Gives switches that change at known times their sides for the motion from `left` on; h: the size of the next step. */
 static motus_status pass_times(events *e, stepper *s, double h, motus_error *err)
 {
-    const int64_t passed = e->rules.pass ? e->rules.pass(e->rules.ctx, e->way, now(e), e->left.x) : 0;
-    if (!passed && !e->stopped) return MOTUS_OK;
+    int64_t passed = 0;
+    const motus_status status =
+        e->rules.pass ? e->rules.pass(e->rules.ctx, e->way, now(e), e->left.x, e->left.v, &passed, err) : MOTUS_OK;
+    if (status || (!passed && !e->stopped)) return status;
     e->passed_times += passed;
     e->stopped = e->left.valued = e->boxed = false;
     return jump(e, s, &e->left, h, err);

@@ -121,9 +121,9 @@ typedef struct rules {
     motus_status (*settle)(void *ctx, double way, double t, double *x, double *v, motus_error *);
     /* Switches of the force that change at times which are known beforehand, and have no functions. `next` returns the
      * first such time after t along `way`, infinite if there is none. `pass` gives them their sides for the motion from
-     * t on, and returns how many it has changed. NULL: there are none. */
-    double (*next)(void *ctx, double way, double t, const double *x);
-    int64_t (*pass)(void *ctx, double way, double t, double *x);
+     * t on, with what follows from that, and tells how many it has changed. NULL: there are none. */
+    double (*next)(void *ctx, double way, double t, double *x);
+    motus_status (*pass)(void *ctx, double way, double t, double *x, double *v, int64_t *passed, motus_error *);
     /* Decides how the motion goes on where `count` switches, of these functions, turn ever faster and the state is,
      * but for rounding, where their turns accumulate; it may move the state by that rounding. MOTUS_EVENTS: it cannot
      * decide. NULL: it never can. */

@@ -241,6 +241,7 @@ static motus_status too_many(const stepper *s, motus_error *err)
 static motus_status go(stepper *s, const stepper_limit *limit, const stepper_body *body, motus_error *err)
 {
     work *w = &s->work;
+    if (w->carried && w->t != limit->until) s->arrived = false; /* it was at an earlier end */
     if (s->arrived) return MOTUS_OK;
     s->until = limit->until;
     w->until = isnan(limit->until) ? INFINITY * w->h : limit->until;

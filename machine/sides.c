@@ -9,8 +9,6 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { NESTED = 16 }; /* the most switches, each within the argument of the next, that change at once */
-
 /* Goes over the functions after those of the text: n counts them, k is the switch of each. */
 #define EACH_SHOWN(s, n, k) for (size_t n = 0, k; n < (s)->shown_count && (k = (s)->shown[n], true); n++)
 
@@ -369,7 +367,8 @@ static motus_status settle(void *ctx, double way, double t, double *x, double *v
     motus_status status = MOTUS_OK;
     bool settled = false;
     s->way = way;
-    sides_pass_times(s, way, t, x);
+    sides_pass_times(s, way, t, x, &settled);
+    settled = false;
     memset(s->of, 0, count * sizeof *s->of);
     for (int pass = 0; pass < NESTED && status == MOTUS_OK && !settled; pass++) {
         memcpy(s->kept, side, count * sizeof *side);
@@ -385,6 +384,13 @@ static motus_status settle(void *ctx, double way, double t, double *x, double *v
             s->of[k] |= pass >= NESTED - 6 && s->kept[k] != side[k] && !sides_follows(s, k);
     }
     return status != MOTUS_OK || settled ? status : stand_together(s, s->of, way, t, x, v, &settled, err);
+}
+
+static motus_status pass(void *ctx, double way, double t, double *x, double *v, int64_t *passed, motus_error *err)
+{
+    bool jumps;
+    *passed = sides_pass_times(ctx, way, t, x, &jumps);
+    return jumps && ((const sides *)ctx)->shown_count ? settle(ctx, way, t, x, v, err) : MOTUS_OK;
 }
 
 /* ---- making ---- */
@@ -454,7 +460,7 @@ static bool make(sides *s, model *m)
     s->supplied.rule = s->rule;
     s->supplied.count = own + s->shown_kinds;
     s->supplied.functions = s->own.functions + s->shown_count;
-    if (s->timed_count) s->supplied.next = sides_next_time, s->supplied.pass = sides_pass_times;
+    if (s->timed_count) s->supplied.next = sides_next_time, s->supplied.pass = pass;
     s->supplied.values = values;
     s->supplied.rates = rates;
     s->supplied.rates_without_a = false;
@@ -525,9 +531,9 @@ const rules *sides_rules(const sides *s) { return &s->supplied; }
 bool sides_rebind(sides *s)
 {
     const binding b = {s->model->arrays, s->model->ints, s->model->pool};
-    tape *const tapes[] = {s->argument,       s->position, s->times,       s->rate,         s->rounding,
-                           s->force_rounding, s->least,    s->least_rates, s->hold,         s->hold_rate,
-                           s->hold_rounding,  s->grip,     s->grip_rate,   s->grip_rounding};
+    tape *const tapes[] = {s->argument,  s->position,       s->from,  s->rates,       s->rate,
+                           s->rounding,  s->force_rounding, s->least, s->least_rates, s->hold,
+                           s->hold_rate, s->hold_rounding,  s->grip,  s->grip_rate,   s->grip_rounding};
     for (size_t k = 0; k < sizeof tapes / sizeof *tapes; k++)
         if (tapes[k] && !tape_bind(tapes[k], &b)) return false;
     sides_bind_timed(s);

@@ -9,6 +9,8 @@
 #include "lang/tape/tape.h"
 #include "machine/sides.h"
 
+enum { NESTED = 16 }; /* the most switches, each within the argument of the next, that change at once */
+
 struct sides {
     const model *model;
     const switches *switches;
@@ -16,12 +18,14 @@ struct sides {
     rules supplied, own;
     rule *rule;
     tape *argument, *rate, *rounding, *force_rounding, *least, *least_rates;
-    struct timed *timed; /* the searches in tables of the time alone (sides_timed.c) */
+    struct timed *timed; /* the switches that change at known times (sides_timed.c) */
     size_t timed_count;
-    tape *times;     /* their arguments, and the rates of these */
-    double *line;    /* what these are at t = 0 */
-    size_t *shown;   /* by function after those of the text: its switch; timed ones have none */
-    size_t *kind_of; /* by rule after those of the text: its kind */
+    uint8_t *is_timed;  /* by switch */
+    bool nested;        /* some depend on the sides of others */
+    tape *from, *rates; /* their arguments, and the rates of these */
+    double *line;       /* both, at t = 0 */
+    size_t *shown;      /* by function after those of the text: its switch; timed ones have none */
+    size_t *kind_of;    /* by rule after those of the text: its kind */
     size_t shown_count, shown_kinds;
     tape *position;                         /* the arguments without sides; NULL: no switch is a search in a table */
     tape *hold, *hold_rate, *hold_rounding; /* NULL: no switch can be held */
@@ -86,10 +90,12 @@ motus_status sides_accelerate(sides *s, double t, double *x, double *v, motus_er
 /* Finds the switches that change at known times, and computes these times again. False: no memory. */
 bool sides_find_timed(sides *, model *);
 void sides_bind_timed(sides *);
-bool sides_is_timed(const sides *, size_t k);
-/* See `next` and `pass` of core/rules.h. */
-double sides_next_time(void *sides, double way, double t, const double *x);
-int64_t sides_pass_times(void *sides, double way, double t, double *x);
+static inline bool sides_is_timed(const sides *s, size_t k) { return s->is_timed[k] != 0; }
+/* See `next` of core/rules.h. */
+double sides_next_time(void *sides, double way, double t, double *x);
+/* Sets the sides of these switches for the motion from t on, and returns how many have changed. *jumps: the force may
+ * have jumped. */
+int64_t sides_pass_times(sides *, double way, double t, double *x, bool *jumps);
 
 /* ---- sides_choose.c ---- */
 

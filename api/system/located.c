@@ -46,7 +46,8 @@ static bool has_domain(const model *m)
 /* Returns why a run does not locate switches unless asked; "": it does. */
 static const char *unsuited(const model *m)
 {
-    if (m->located->count > LOCATED_MOST) return "switches are not located unless asked for, since there are many";
+    if (switches_sought(m, m->located) > LOCATED_MOST)
+        return "switches are not located unless asked for, since there are many";
     return has_domain(m) ? "switches are not located unless asked for, since the force may be undefined beyond one"
                          : "";
 }

@@ -163,12 +163,6 @@ bool switches_is(const graph *g, const graph_node *n)
     }
 }
 
-bool switches_timed(graph *g, const graph_node *n)
-{
-    return n->op == OP_FIND && !(g->nodes[n->a].deps & (DEP_STATE | DEP_D | DEP_LEVELS)) &&
-           graph_degree(g, n->a, DEP_TIME) == 1;
-}
-
 /* Returns whether an operation compares two operands: its argument is their difference, its side 1 or 0. */
 static bool compares(operation op)
 {
@@ -181,6 +175,65 @@ static bool compares(operation op)
     case OP_GE: return true;
     default: return false;
     }
+}
+
+static int larger_of(int a, int b) { return a > b ? a : b; }
+
+/* Returns the degree in the time while all sides are held: 0, 1, or 2 for more, and where a switch does not change at
+ * known times. `of`: the degrees of the operands. */
+static int held_degree(const graph *g, const graph_node *n, const int of[3])
+{
+    const int all = larger_of(of[0], larger_of(of[1], of[2]));
+    if (all > 1) return 2;
+    switch ((operation)n->op) {
+    case OP_TIME: return 1;
+    case OP_MOD: return g->nodes[n->b].deps & DEP_TIME ? 2 : of[0];
+    case OP_ABS: return of[0];
+    case OP_SELECT: return of[0] ? 2 : larger_of(of[1], of[2]);
+    case OP_CBRT: return of[0] ? 2 : 0;
+    default: break;
+    }
+    if (operation_is((operation)n->op, IS_FLAT)) return 0;
+    switch ((degree_rule)operation_at((operation)n->op)->degree) {
+    case DEGREE_LEAF: return 0;
+    case DEGREE_SUM: return of[1] ? 2 : of[0];
+    case DEGREE_LINEAR: return all;
+    case DEGREE_PRODUCT: return of[0] + of[1];
+    case DEGREE_QUOTIENT: return of[1] ? 2 : of[0];
+    case DEGREE_FUSED: return larger_of(of[0] + of[1], of[2]);
+    default: return n->op == OP_MIN || n->op == OP_MAX || !all ? all : 2;
+    }
+}
+
+bool switches_timed(graph *g, const graph_node *n)
+{
+    const operation op = (operation)n->op;
+    const node roots[2] = {n->a, compares(op) || op == OP_MOD ? n->b : n->a};
+    graph_walk w;
+    if (!switches_is(g, n) || op == OP_CBRT || n->deps & (DEP_STATE | DEP_D)) return false;
+    if (op == OP_MOD && g->nodes[n->b].deps & DEP_TIME) return false;
+    if (!graph_order(g, roots, 2, DEP_TIME, true, &w)) return false;
+    int *degree = graph_walk_room(g, &w, sizeof *degree), most = 0;
+    for (uint32_t k = 0; degree && k < w.count; k++) {
+        const graph_node *one = &g->nodes[w.nodes[k]];
+        node operand[3];
+        int of[3] = {0, 0, 0};
+        for (int j = graph_operands(one, operand); j-- > 0;)
+            of[j] = graph_reached(g, &w, operand[j]) ? degree[g->place[operand[j]]] : 0;
+        degree[k] = held_degree(g, one, of);
+        most = larger_of(most, degree[k]);
+    }
+    give(&g->arena->allocator, degree);
+    give(&g->arena->allocator, w.nodes);
+    return degree && most < 2;
+}
+
+size_t switches_sought(const model *m, const switches *s)
+{
+    size_t count = 0;
+    for (size_t k = 0; k < s->kinds; k++)
+        if (!switches_timed(m->graph, graph_at(m->graph, s->original[k]))) count += switches_cells(s, k);
+    return count;
 }
 
 node switches_argument(graph *g, operation op, node a, node b)
@@ -244,6 +297,7 @@ static uint32_t add_kind(builder *b, node n, unsigned levels, node argument, nod
         s->rate = arena_replace(m, s->rate, b->room * sizeof *s->rate, room * sizeof *s->rate);
         s->original = arena_replace(m, s->original, b->room * sizeof *s->original, room * sizeof *s->original);
         s->side = arena_replace(m, s->side, b->room * sizeof *s->side, room * sizeof *s->side);
+        s->within = arena_replace(m, s->within, b->room * sizeof *s->within, room * sizeof *s->within);
         s->first = arena_replace(m, s->first, b->room * sizeof *s->first, room * sizeof *s->first);
         if (broken(b)) return UINT32_MAX;
         b->room = room;
@@ -272,6 +326,7 @@ static uint32_t kind_of(builder *b, node n, node a, node c, const nest *around)
                                 switches_argument(g, original.op, a, c), around);
     if (k == UINT32_MAX) return k;
     if (original.op == OP_FIND) hold_argument(b, k, table_position(g, a, b->s->side[k], c));
+    b->s->within[k] = a;
     b->kinds[k].before = b->last[n];
     b->last[n] = k + 1;
     return k;

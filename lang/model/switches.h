@@ -40,6 +40,7 @@ typedef struct switches {
     output *held, *rate; /* the argument with sides in it, and its rate along the motion (reads SPACE_A) */
     node *original;      /* by kind: the operation, as the model has it */
     node *side;          /* by kind: the side, as the equations load it */
+    node *within;        /* by kind: the operation's first operand, with sides in it */
     size_t *first;       /* by kind: the number of the first cell's switch */
     uint32_t *leader;    /* by kind: the kind of the first component of its direction; itself: it is no component */
     uint8_t *parts;      /* by kind: how many components its direction has, in consecutive kinds; 0: it is none */
@@ -65,8 +66,11 @@ size_t switches_cells(const switches *, size_t kind);
 size_t switches_kind(const switches *, size_t k);
 model_shape switches_shape(const model *, const switches *, size_t kind);
 
-/* Returns whether a switch changes at times that are known beforehand: it is the search in a table by a + b t. */
+/* Returns whether a switch changes at times that are known beforehand: while all sides are held, what it depends on is
+ * a + b t alone. */
 bool switches_timed(graph *, const graph_node *);
+/* Returns how many of a model's switches, cells counted, do not. */
+size_t switches_sought(const model *, const switches *);
 /* Return whether a node is a switch, and what one with the operands a and b compares with 0, or takes the integer part
  * of (switches_counts). */
 bool switches_is(const graph *, const graph_node *);
