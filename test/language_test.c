@@ -872,6 +872,23 @@ static void rule_21_time(void **unused)
     }
 }
 
+/* An error of a run says when by the name of the time. */
+static void rule_21_errors(void **unused)
+{
+    (void)unused;
+    motus_system *s = given_text("x' = x^2\nt' = 2\nx(0) = 1\nt(0) = 0\nuntil 3");
+    motus_error err = motus_default_error();
+    motus_run_def def = motus_default_run();
+    motus_run *r = NULL;
+    def.method = "dop853";
+    def.tolerance = 1e-9;
+    must(motus_run_create(s, &def, &r, &err), &err, "create");
+    assert_int_not_equal(motus_run_finish(r, &err), MOTUS_OK);
+    if (!strstr(err.message, " tau = 1") || strstr(err.message, " t = ")) fail_msg("%s", err.message);
+    motus_run_destroy(r);
+    motus_system_destroy(s);
+}
+
 static void rule_17_derivatives(void **unused)
 {
     (void)unused;
@@ -1155,6 +1172,7 @@ int main(void)
         cmocka_unit_test(rule_20_left_sides),
         cmocka_unit_test(rule_20_rates),
         cmocka_unit_test(rule_21_time),
+        cmocka_unit_test(rule_21_errors),
         cmocka_unit_test(rule_17_derivatives),
         cmocka_unit_test(rule_17_many_cells),
         cmocka_unit_test(rule_17_forces),

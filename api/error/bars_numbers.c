@@ -15,6 +15,7 @@ void bars_give_up(motus_run *r, const char *format, ...)
     va_start(list, format);
     vsnprintf(r->bars->why, sizeof r->bars->why, format, list);
     va_end(list);
+    column_names_time(r->system, r->bars->why, sizeof r->bars->why);
 }
 
 void bars_again(motus_run *r, bool given)

@@ -1,6 +1,7 @@
 /* Runs: how they are made, go on, and tell their states at and between steps. See run.h. */
 #include "api/motion/later.h"
 #include "api/motion/locate.h"
+#include "api/system/columns.h"
 #include "api/system/system.h"
 #include "api/motion/run_events.h"
 #include "core/rows.h"
@@ -53,6 +54,7 @@ static motus_status advance_on(motus_run *r, int64_t n, motus_error *err)
     r->arrived = why == STOP_UNTIL || why == STOP_EVENT || (n == 0 && run_events_ended(r));
     r->halted = why == STOP_HALT;
     if (status != MOTUS_OK && status != MOTUS_CANCELLED) diagnosis_add(&r->diagnosed, r->stepper, err);
+    if (status != MOTUS_OK) column_names_error(r->system, err);
     if (isnan(r->first_step) && run_steps(r) > 0) r->first_step = fabs(stepper_last_step(r->stepper));
     if (status != MOTUS_CANCELLED) return status;
     char t[DECIMAL_MAX];
@@ -136,7 +138,9 @@ static motus_status begin(motus_run *r, const motus_run_def *def, motus_error *e
     if (status == MOTUS_OK && r->locate) status = locate_begin(r, err);
     if (status == MOTUS_OK) status = run_events_begin(r, err);
     if (status == MOTUS_OK && r->company) status = r->company->begin(r, err);
-    return status == MOTUS_OK ? run_step(r, 0, err) : status;
+    if (status == MOTUS_OK) return run_step(r, 0, err);
+    column_names_error(s, err);
+    return status;
 }
 
 motus_run *run_new(motus_system *s)
@@ -230,6 +234,7 @@ motus_status run_sync(motus_run *r, bool with_a, motus_error *err)
     if (r->locate && !locate_bind(r)) return fail(err, MOTUS_MEMORY, "no memory for the model's switches");
     motus_status status = stepper_sync(r->stepper, r->x, r->v, with_a ? r->a : NULL, err);
     if (status != MOTUS_OK) diagnosis_add(&r->diagnosed, r->stepper, err);
+    if (status != MOTUS_OK) column_names_error(r->system, err);
     if (status == MOTUS_OK && r->events) events_keep(r->events, stepper_time(r->stepper), r->x);
     r->synchronised = status == MOTUS_OK;
     r->with_a = with_a;

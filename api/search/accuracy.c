@@ -6,6 +6,7 @@
 #include "api/search/accuracy.h"
 
 #include "api/error/bars.h"
+#include "api/system/columns.h"
 #include "api/system/vector.h"
 #include "api/error/witness.h"
 
@@ -241,6 +242,7 @@ motus_status accuracy_refuse(const accuracy *a, const motus_run *r, motus_error 
     else
         fail(err, MOTUS_ACCURACY, "the accuracy %s is not reached: the best trial was beyond it at t = %s, %s%s",
              wanted, run_time_text(r, a->time, t), size, why);
+    column_names_error(r->system, err);
     if (lost && !why[0])
         hint(err, "errors grow with the time: end earlier, with a smaller `until` of the definition");
     else

@@ -3,6 +3,7 @@
 
 #include "base/near.h"
 
+#include <stdio.h>
 #include <string.h>
 
 typedef struct column_name { /* the parts of a name: [exact] base [indices] primes component */
@@ -154,4 +155,31 @@ motus_status motus_column_find(const motus_system *s, const char *name, size_t *
         return MOTUS_OK;
     }
     return no_column(s, name, n.base, err);
+}
+
+/* Returns whether "t = " within a sentence is the time: a word before it says so. */
+static bool says_time(const char *sentence, const char *at)
+{
+    static const char *const words[] = {"at ",      "near ", "from ",   "until ", "after ",
+                                        "between ", "and ",  "change ", "start, "};
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
+        const size_t n = strlen(words[i]);
+        if ((size_t)(at - sentence) >= n && !strncmp(at - n, words[i], n)) return !strncmp(at, "t = ", 4);
+    }
+    return false;
+}
+
+void column_names_time(const motus_system *s, char *sentence, size_t size)
+{
+    const char *const name = columns_time(s);
+    char text[MOTUS_TEXT_MAX];
+    size_t n = 0;
+    if (!strcmp(name, "t")) return;
+    for (const char *c = sentence; *c && n + 1 < sizeof text && n < sizeof text; c++)
+        if (says_time(sentence, c))
+            n += (size_t)snprintf(text + n, sizeof text - n, "%s", name);
+        else
+            text[n++] = *c;
+    text[n < sizeof text ? n : sizeof text - 1] = 0;
+    snprintf(sentence, size, "%s", text);
 }

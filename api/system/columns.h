@@ -15,6 +15,12 @@ model_state columns_shape(const motus_system *, const column_range *);
 bool columns_find_cell(const model_state *, const int64_t *index, size_t *cell);
 /* Enters the names of all ranges into the table by which motus_column_find finds them. False: no memory. */
 bool column_names_enter(motus_system *);
+/* Writes the name of the time into a sentence, "at tau = 3", where the model does not name it t. */
+void column_names_time(const motus_system *, char *sentence, size_t size);
+static inline void column_names_error(const motus_system *s, motus_error *err)
+{
+    if (err) column_names_time(s, err->message, sizeof err->message);
+}
 /* Reports that the callback for `which` returned `answer` at time t. Returns MOTUS_CALLBACK. */
 motus_status columns_callback_failed(const char *which, double t, int answer, motus_error *);
 
