@@ -27,7 +27,7 @@ start() {
     timeout --foreground --kill-after=5 "$limit" "$@" >"$logs/$name.log" 2>&1 </dev/null
     echo "$? $((SECONDS - since))" >"$logs/$name.status"
 }
-bits() { start bits 600 node test/lab/bits.mjs $logs/core.mjs build/lab/motus.wasm "$MOTUS" models; }
+bits() { start bits 600 node test/lab/bits.mjs $logs/core.mjs build/lab/motus.wasm "$MOTUS" models test/bits; }
 # Tests without a browser, by node's test runner, whose output differs.
 parts() {
     start parts 900 node --test --test-reporter=tap test/lab/*.test.mjs

@@ -1,14 +1,14 @@
 /* The page's module against the program, byte for byte: the restart state (every number in hexadecimal) after some steps of every model by every
  * method that it admits. Ends with `N passed, N failed`.
  *
- *   node bits.mjs core.mjs motus.wasm motus models/
+ *   node bits.mjs core.mjs motus.wasm motus FOLDER_OF_MODELS ...
  */
 import { spawnSync } from 'node:child_process';
 import { mkdtempSync, readFileSync, readdirSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
-import { join, resolve } from 'node:path';
+import { basename, join, resolve } from 'node:path';
 
-const [bundle, wasm, program, models] = process.argv.slice(2).map((name) => resolve(name));
+const [bundle, wasm, program, ...folders] = process.argv.slice(2).map((name) => resolve(name));
 const { Core } = await import(bundle);
 const module = new WebAssembly.Module(readFileSync(wasm));
 const folder = mkdtempSync(join(tmpdir(), 'motus-bits-'));
@@ -26,8 +26,8 @@ judge('the module imports nothing', WebAssembly.Module.imports(module).length ==
   const core = new Core(module), ours = core.catalogue(core.create()).map((m) => m.name), known = JSON.parse(spawnSync(program, ['methods', '--json'], { encoding: 'utf8' }).stdout).methods.map((m) => m.name);
   judge('the module has every row of the catalogue', ours.join() === known.join(), known.filter((name) => !ours.includes(name)).join());
 }
-for (const file of readdirSync(models).filter((name) => name.endsWith('.motus')).sort()) {
-  const text = readFileSync(join(models, file), 'utf8');
+for (const file of folders.flatMap((models) => readdirSync(models).filter((name) => name.endsWith('.motus')).sort().map((name) => join(models, name)))) {
+  const text = readFileSync(file, 'utf8');
   const core = new Core(module), lab = core.create();
   core.open(lab, { text, set: [] });
   const { methods, settings } = core.describe(lab), adaptive = new Set(core.catalogue(lab).filter((m) => m.adaptive).map((m) => m.name));
@@ -37,7 +37,7 @@ for (const file of readdirSync(models).filter((name) => name.endsWith('.motus'))
   const free = /^\s*when /m.test(text);
   for (const { name: method } of methods.filter(({ name, admitted }) => admitted && !(free && name.endsWith('-reversible')))) {
     const until = end(method), state = join(folder, 'state'), tolerance = adaptive.has(method) ? 1e-8 : null;
-    const run = spawnSync(program, ['run', join(models, file), '--method', method, '--until', String(until), '--save-state', state, '--error', 'none', '--quiet', '-o', join(folder, 'out.csv'),
+    const run = spawnSync(program, ['run', file, '--method', method, '--until', String(until), '--save-state', state, '--error', 'none', '--quiet', '-o', join(folder, 'out.csv'),
       ...(tolerance ? ['--tolerance', String(tolerance)] : [])], { encoding: 'utf8' });
     core.start(lab, method, null, until, tolerance);
     let said = '';
@@ -47,7 +47,7 @@ for (const file of readdirSync(models).filter((name) => name.endsWith('.motus'))
       said = e.problem.message;
     }
     if (said === '' && run.status !== 0) said = core.singular(lab, method, null, until, tolerance)?.message ?? '';
-    const both = `${file} by ${method}`;
+    const both = `${basename(file)} by ${method}`;
     if (run.status !== 0) judge(both, said !== '' && run.stderr.includes(said), `the program says ${run.stderr}, the module ${said || 'nothing'}`);
     else judge(both, said === '' && core.save(lab) === readFileSync(state, 'utf8'), said);
     rmSync(state, { force: true });
@@ -55,8 +55,8 @@ for (const file of readdirSync(models).filter((name) => name.endsWith('.motus'))
   /* The bars of the answer: the numbers and the errors that the program prints. */
   const names = core.describe(lab).columns, columns = names.flatMap(({ kind }, k) => (kind === 'position' || kind === 'velocity' ? [k] : []));
   for (const { name: method } of methods.filter(({ name, admitted }) => admitted && ['verlet', 'rk4', 'dopri5', 'dep8'].includes(name))) {
-    const tolerance = adaptive.has(method) ? 1e-8 : null, until = end(method), both = `${file} by ${method}: its bars`;
-    const run = spawnSync(program, ['run', join(models, file), '--method', method, '--until', String(until), '--json', ...(tolerance ? ['--tolerance', String(tolerance)] : [])], { encoding: 'utf8' });
+    const tolerance = adaptive.has(method) ? 1e-8 : null, until = end(method), both = `${basename(file)} by ${method}: its bars`;
+    const run = spawnSync(program, ['run', file, '--method', method, '--until', String(until), '--json', ...(tolerance ? ['--tolerance', String(tolerance)] : [])], { encoding: 'utf8' });
     if (run.status !== 0) continue;
     core.start(lab, method, null, until, tolerance, true);
     core.advance(lab, 1e6);
