@@ -11,10 +11,183 @@
  *     7. studies                every method side by side; observed order and its certificate; the reference solution
  *     8. texts for an editor    the statements of a model, typeset; the words of a text
  *
- *     motus_text_def def = motus_default_text();
- *     def.text = "x'' = -x   x(0) = 1 ...";
- *     motus_system *s;  motus_run *r;
- *     if (motus_system_from_text(&def, &s, &err)) puts(err.message);
+ * Index: what one wants, and what does it.
+ *
+ *     read a model from text                    motus_system_from_text
+ *     give the force as a C function            motus_system_from_callback
+ *     print an error in one line                motus_error_line
+ *     change a parameter or an initial value    motus_system_set
+ *     compute in a second thread                motus_system_clone
+ *     find numbers by their names               motus_columns_named, motus_column_find
+ *     list what a system holds                  motus_variable_at, motus_column_at, motus_parameter_at
+ *     choose a step and an end                  motus_suggest
+ *     list methods; ask whether one is admitted motus_method_at, motus_method_admits
+ *     integrate                                 motus_run_create, motus_run_finish, motus_run_step
+ *     read the state, or numbers by name        motus_run_state, motus_run_value, motus_run_values
+ *     read numbers at any times (dense output)  motus_run_sample
+ *     know how far numbers may be off           motus_run_errors, motus_run_sample_errors
+ *     read the table of events                  motus_run_event, motus_run_event_values
+ *     count steps and evaluations               motus_run_now
+ *     stop, and go on later to the same bits    motus_run_save, motus_run_restore
+ *     go on from another state                  motus_run_set_state
+ *     look into a step; linearise the equations motus_run_trace, motus_run_jacobian
+ *     integrate many trajectories, on threads   motus_ensemble_create, motus_ensemble_run
+ *     compare methods; rank them by their work  motus_compare, motus_rank
+ *     measure the order of a method             motus_converge
+ *     have a reference solution                 motus_reference_create, motus_reference_at
+ *     typeset a model; colour its text          motus_statement_mathml, motus_text_words
+ *     give the library memory of your own       motus_allocator
+ *
+ * Three programs. Compile them with cc bounce.c $(pkg-config --cflags --libs motus).
+ *
+ * bounce.c: a C callback with an event. A ball falls, loses half of its speed at each bounce, and stops at the third.
+ *
+ *     #include <motus.h>
+ *     #include <stdio.h>
+ *
+ *     static int fall(void *g, double t, const double *x, const double *v, double *a)
+ *     {
+ *         (void)t, (void)x, (void)v;
+ *         a[0] = -*(double *)g;
+ *         return 0;
+ *     }
+ *     static int height(void *g, double t, const double *x, const double *v, double *values)
+ *     {
+ *         (void)g, (void)t, (void)v;
+ *         values[0] = x[0];
+ *         return 0;
+ *     }
+ *     static int bounce(void *g, size_t event, double t, double *x, double *v)
+ *     {
+ *         (void)g, (void)event, (void)t;
+ *         x[0] = 0, v[0] = -0.5 * v[0];
+ *         return 0;
+ *     }
+ *
+ *     int main(void)
+ *     {
+ *         double g = 9.81, x = 1, v = 0;
+ *         motus_event_def hit = {.name = "bounce", .direction = -1, .assigns = 1, .stop = 3};
+ *         motus_callback_def def = motus_default_callback();
+ *         def.positions = 1, def.x = &x, def.v = &v;
+ *         def.acceleration = fall, def.context = &g;
+ *         def.depends_on_velocity = def.depends_on_time = 0;
+ *         def.events = &hit, def.event_count = 1, def.event_functions = height, def.event_action = bounce;
+ *         motus_run_def how = motus_default_run();
+ *         how.method = "dopri5", how.tolerance = 1e-9, how.until = 10;
+ *
+ *         motus_error err = motus_default_error();
+ *         motus_event_row row = motus_default_event_row();
+ *         motus_system *system = NULL;
+ *         motus_run *run = NULL;
+ *         if (motus_system_from_callback(&def, &system, &err) || motus_run_create(system, &how, &run, &err) ||
+ *             motus_run_finish(run, &err))
+ *             puts(motus_error_line(&err).text);
+ *         for (int64_t k = 0; motus_run_event(run, k, &row) == MOTUS_OK; k++)
+ *             printf("%s %d at t = %.10g\n", row.name, (int)row.count, row.time);
+ *         motus_run_destroy(run);
+ *         motus_system_destroy(system);
+ *         return motus_status_exit(err.status);
+ *     }
+ *
+ * bounce.c prints
+ *
+ *     bounce 1 at t = 0.451523641
+ *     bounce 2 at t = 0.903047282
+ *     bounce 3 at t = 1.128809102
+ *
+ * swings.c: an ensemble on four threads. A pendulum swings from a thousand angles.
+ *
+ *     #include <motus.h>
+ *     #include <stdio.h>
+ *
+ *     int main(void)
+ *     {
+ *         motus_text_def def = motus_default_text();
+ *         def.text = "phi'' = -sin(phi); phi(0) = 1; phi'(0) = 0; step 0.01; until 20";
+ *         const char *vary[] = {"phi(0)"}, *observe[] = {"phi", "phi'"};
+ *         double start[1000], last[1000], fastest[1000], stopped[1000];
+ *         const double *values[] = {start};
+ *         double *results[] = {last, fastest};
+ *         for (int k = 0; k < 1000; k++) start[k] = 0.003 * k;
+ *
+ *         motus_error err = motus_default_error();
+ *         motus_system *system = NULL;
+ *         motus_ensemble *ensemble = NULL;
+ *         size_t column[2];
+ *         if (motus_system_from_text(&def, &system, &err) || motus_columns_named(system, 2, observe, column, &err))
+ *             return puts(motus_error_line(&err).text), motus_status_exit(err.status);
+ *         const motus_record records[] = {{MOTUS_REDUCE_FINAL, column[0]}, {MOTUS_REDUCE_MAX, column[1]}};
+ *         motus_ensemble_def how = motus_default_ensemble();
+ *         how.vary = vary, how.vary_count = 1;
+ *         how.records = records, how.record_count = 2;
+ *         how.method = "verlet", how.threads = 4;
+ *         if (motus_ensemble_create(system, &how, &ensemble, &err) ||
+ *             motus_ensemble_run(ensemble, 1000, values, results, stopped, &err))
+ *             puts(motus_error_line(&err).text);
+ *         else
+ *             for (int k = 333; k < 1000; k += 333)
+ *                 printf("from %.3f to %.6f, at most %.6f fast\n", start[k], last[k], fastest[k]);
+ *         motus_ensemble_destroy(ensemble);
+ *         motus_system_destroy(system);
+ *         return motus_status_exit(err.status);
+ *     }
+ *
+ * swings.c prints
+ *
+ *     from 0.999 to 0.995029, at most 0.957959 fast
+ *     from 1.998 to -1.653642, at most 1.681842 fast
+ *     from 2.997 to 0.180228, at most 1.994741 fast
+ *
+ * ellipse.c: a text, with bars of error and dense output at times between the steps.
+ *
+ *     #include <motus.h>
+ *     #include <stdio.h>
+ *
+ *     int main(void)
+ *     {
+ *         motus_text_def def = motus_default_text();
+ *         def.file = "ellipse";
+ *         def.text = "mu = 1\n"
+ *                    "r'' = -mu r/|r|^3\n"
+ *                    "r(0) = (1, 0)\n"
+ *                    "r'(0) = (0, 1.2)\n"
+ *                    "invariant energy = |r'|^2/2 - mu/|r|\n";
+ *         const char *names[] = {"r.x", "r.y"};
+ *         const double times[] = {2.5, 5, 7.5, 10};
+ *         double at[4][2], bars[4][2], energy;
+ *         size_t columns[2];
+ *         motus_run_def how = motus_default_run();
+ *         how.method = "dop853", how.tolerance = 1e-10, how.until = 10, how.error = MOTUS_BARS_CHEAP;
+ *
+ *         motus_error err = motus_default_error();
+ *         motus_system *system = NULL;
+ *         motus_run *run = NULL;
+ *         if (motus_system_from_text(&def, &system, &err) || motus_columns_named(system, 2, names, columns, &err) ||
+ *             motus_run_create(system, &how, &run, &err) ||
+ *             motus_run_sample_errors(run, times, 4, columns, 2, at[0], bars[0], &err) ||
+ *             motus_run_value(run, "energy", &energy, &err)) {
+ *             puts(motus_error_line(&err).text);
+ *         } else {
+ *             for (int k = 0; k < 4; k++)
+ *                 printf("t = %4.1f: x = %.10f ± %.0e, y = %.10f ± %.0e\n", times[k], at[k][0], bars[k][0], at[k][1],
+ *                        bars[k][1]);
+ *             printf("energy = %.10f\n", energy);
+ *         }
+ *         motus_run_destroy(run);
+ *         motus_system_destroy(system);
+ *         return motus_status_exit(err.status);
+ *     }
+ *
+ * ellipse.c prints
+ *
+ *     t =  2.5: x = -0.6346272983 ± 9e-11, y = 1.5978174660 ± 3e-11
+ *     t =  5.0: x = -2.0956623454 ± 2e-10, y = 1.0898051511 ± 2e-10
+ *     t =  7.5: x = -2.5714277282 ± 6e-10, y = -0.0015585239 ± 4e-10
+ *     t = 10.0: x = -2.0930907236 ± 1e-09, y = -1.0922925247 ± 6e-10
+ *     energy = -0.2800000000
+ *
+ * Rules of all calls.
  *
  * Sizes. Later versions may add members at the end of a struct. A program compiled against this header keeps working,
  * because neither side relies on the size of the other's structs:
@@ -39,9 +212,11 @@
  * Units. The equations' own, the same for times, steps and values; angles are in radians. `seconds` are elapsed
  * seconds of computing.
  * Lifetimes. A handle lives from …_create / …_from… to …_destroy (destroying NULL does nothing). Runs, ensembles and
- * references use their system: destroy them before it. Strings and structs returned by pointer, and the strings in
- * structs that a call fills, belong to the handle that they came from and live as long as it, unless the comment says
- * how long; or they are static. What you give to a call is copied, callbacks and their context excepted.
+ * references use their system. You may destroy it before them: its handle is yours no longer, and the system itself
+ * goes with the last of them; until then they need its callbacks, their context and its allocator. Strings and structs
+ * returned by pointer, and the strings in structs that a call fills, belong to the handle that they came from and live
+ * as long as it, unless the comment says how long; or they are static. What you give to a call is copied, callbacks and
+ * their context excepted.
  * Threads. There are no globals. Different threads may use different handles at once; only one thread may use a handle
  * at a time. A run, an ensemble and a reference use their system's handle too, so each thread needs a system of its
  * own: motus_system_clone.
@@ -196,6 +371,13 @@ typedef struct motus_error {
     int verified;      /* 1: trial steps from shortly before the failure, with this value, have led beyond it */
 } motus_error;
 MOTUS_DEFAULT_FUNCTION(error, ERROR, motus_error)
+
+/* Returns an error in one line, safe to print: "spring.motus:2:7: there is no name w; hint: …". It does not change, and
+ * needs no room of yours: puts(motus_error_line(&err).text). "": there is no error. */
+typedef struct motus_line {
+    char text[4 * MOTUS_TEXT_MAX]; /* file, place, message and hint fit in whole */
+} motus_line;
+MOTUS_API motus_line motus_error_line(const motus_error *);
 
 /* Memory. Without an `allocate` the library uses malloc and free. `allocate` returns at least `bytes` bytes, aligned
  * for any type, or NULL when there is no memory. `release` gets what `allocate` returned, and never NULL; where it is
@@ -374,6 +556,10 @@ MOTUS_API motus_status motus_column_of(const motus_system *, const motus_column 
  * MOTUS_NAME: no column has the name; the hint names the nearest one. */
 MOTUS_API motus_status motus_column_find(const motus_system *, const char *name, size_t *first, size_t *count,
                                          motus_error *);
+/* Finds the columns of `count` names, each of one number: columns[k] is that of names[k]. MOTUS_NAME: as from
+ * motus_column_find. MOTUS_SHAPE: a name stands for several numbers; the hint names the first of them. */
+MOTUS_API motus_status motus_columns_named(const motus_system *, size_t count, const char *const *names,
+                                           size_t *columns, motus_error *);
 
 /* Return the names of quantities and invariants, in the order of the model or of the definition; NULL past the last.
  * *numbers (may be NULL): how many numbers, that is columns, it has. */
@@ -758,6 +944,9 @@ MOTUS_API motus_status motus_run_state(motus_run *, double *x, double *v, motus_
  * there is no such column. MOTUS_CALLBACK: the callback for quantities, invariants or the exact motion returned other
  * than 0. Fails besides as motus_run_state does. */
 MOTUS_API motus_status motus_run_values(motus_run *, const size_t *columns, size_t count, double *out, motus_error *);
+/* Writes the present value of the column with a name, "energy". In a loop find the columns once: motus_columns_named.
+ * Fails as that and motus_run_values do. */
+MOTUS_API motus_status motus_run_value(motus_run *, const char *name, double *out, motus_error *);
 /* Writes columns at given times, which follow the direction of the run and end at or before `until`. It takes steps as
  * needed; between steps it evaluates the method's dense output, of the order motus_method.dense_order. That is a
  * polynomial of the stages (bs32, dopri5, tsit5, verner6 to verner9, dop853, dep6; gauss10 to gauss16, radau15), the

@@ -122,10 +122,11 @@ const char *motus_reference_name(const motus_reference *r) { return r ? r->solut
 void motus_reference_destroy(motus_reference *r)
 {
     if (!r) return;
-    const motus_allocator *allocator = r->s.allocator;
-    if (r->holds) motus_system_hold(r->s.system, false);
+    const motus_allocator allocator = *r->s.allocator;
+    motus_system *const used = r->holds ? r->s.system : NULL;
     solution_free(&r->s, &r->solution);
-    give(allocator, r->y);
+    give(&allocator, r->y);
     study_close(&r->s);
-    give(allocator, r);
+    give(&allocator, r);
+    if (used) motus_system_hold(used, false);
 }

@@ -731,6 +731,52 @@ static void a_pool_without_release(void **state)
     motus_system_destroy(s);
 }
 
+/* A system is destroyed before its users: their numbers are the same, and its memory goes with the last one. */
+static void systems_destroyed_first(void **state)
+{
+    (void)state;
+    for (int first = 0; first < 2; first++) {
+        static double due[3];
+        bank b = {0};
+        motus_error err;
+        motus_system *s = NULL;
+        must(read_text(&b, "c = 0.1\nx'' = -x - c sign(x')\nx(0) = 1\nx'(0) = 0\nuntil 4\n", &s, &err), &err, "text");
+        motus_run_def def = motus_default_run();
+        def.method = "dopri5", def.tolerance = 1e-6, def.error = MOTUS_BARS_CHEAP;
+        motus_ensemble_def flock = motus_default_ensemble();
+        static const char *const vary[] = {"c"};
+        const motus_record record = {MOTUS_REDUCE_FINAL, 1};
+        flock.vary = vary, flock.vary_count = 1, flock.records = &record, flock.record_count = 1;
+        flock.method = "dopri5", flock.tolerance = 1e-6, flock.error = MOTUS_BARS_CHEAP, flock.machine = "interpreter";
+        motus_run *r = NULL;
+        motus_ensemble *e = NULL;
+        motus_reference *known = NULL;
+        must(motus_run_create(s, &def, &r, &err), &err, "run");
+        must(motus_ensemble_create(s, &flock, &e, &err), &err, "ensemble");
+        must(motus_reference_create(s, NULL, &known, &err), &err, "reference");
+        if (first) {
+            const int64_t live = b.live;
+            motus_system_destroy(s);
+            assert_int_equal(b.live, live);
+        }
+        const double c[] = {0.1, 0.2}, *values[] = {c}, end = 4;
+        double x, bar, final[2], bars[2], *results[] = {final}, *errors[] = {bars};
+        const size_t column = 1;
+        must(motus_run_finish(r, &err), &err, "run");
+        must(motus_run_errors(r, &column, 1, &x, &bar, &err), &err, "bars");
+        must(motus_reference_at(known, &end, 1, &x, NULL, &err), &err, "reference");
+        motus_run_destroy(r);
+        must(motus_ensemble_run_errors(e, 2, values, results, errors, NULL, &err), &err, "ensemble");
+        motus_ensemble_destroy(e);
+        const double got[] = {x, bar, final[1]};
+        if (first) assert_memory_equal(got, due, sizeof due);
+        memcpy(due, got, sizeof due);
+        motus_reference_destroy(known);
+        if (!first) motus_system_destroy(s);
+        assert_int_equal(b.live, 0);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -747,6 +793,7 @@ int main(void)
         cmocka_unit_test(suggestions),
         cmocka_unit_test(studies),
         cmocka_unit_test(a_pool_without_release),
+        cmocka_unit_test(systems_destroyed_first),
         cmocka_unit_test(ensembles),
     };
     open_cache();

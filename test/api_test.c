@@ -331,7 +331,7 @@ static void errors_of_every_size(void **state)
     double out[4], *results[1] = {out};
     const size_t column_one = 1;
     const motus_record record = {MOTUS_REDUCE_FINAL, 1};
-    const char *kept, *methods[] = {"verlet"};
+    const char *kept, *methods[] = {"verlet"}, *const names[] = {"x"};
     size_t length, count;
     const motus_method *m;
     const motus_trace_entry *const *entries;
@@ -375,6 +375,8 @@ static void errors_of_every_size(void **state)
         motus_system_destroy(system);
         system = NULL;
         REFUSES(motus_column_find(s, "x", &length, &count, err));
+        REFUSES(motus_columns_named(s, 1, names, &count, err));
+        REFUSES(motus_run_value(r, "x", out, err));
         REFUSES(motus_column_of(s, &c, &count, err));
         REFUSES(motus_method_find("rk4", &m, err));
         REFUSES(motus_method_admits(s, "rk4", err));
@@ -464,6 +466,64 @@ static void every_status_of_a_text_is_reached(void **state)
         assert_non_null(strchr(err.caret, '^'));
         assert_true(strlen(err.source) > 0 && isnan(err.time) && !err.variable[0]);
     }
+}
+
+static void errors_in_one_line(void **state)
+{
+    (void)state;
+    motus_error err = motus_default_error();
+    assert_string_equal(motus_error_line(NULL).text, "");
+    assert_string_equal(motus_error_line(&err).text, "");
+    assert_int_equal(read_text("x'' = -w x\nx(0) = 1\nx'(0) = 0", &err), MOTUS_NAME);
+    char due[2048];
+    snprintf(due, sizeof due, "given.motus:1:8: %s; hint: %s", err.message, err.hint);
+    assert_true(strlen(err.hint) > 3);
+    assert_string_equal(motus_error_line(&err).text, due);
+    err.file[0] = err.hint[0] = 0;
+    snprintf(due, sizeof due, "line 1, column 8: %s", err.message);
+    assert_string_equal(motus_error_line(&err).text, due);
+    err.line = 0;
+    assert_string_equal(motus_error_line(&err).text, err.message);
+    /* The longest texts fit. */
+    memset(err.file, 'f', sizeof err.file - 1), memset(err.message, 'm', sizeof err.message - 1);
+    memset(err.hint, 'h', sizeof err.hint - 1);
+    err.file[sizeof err.file - 1] = err.message[sizeof err.message - 1] = err.hint[sizeof err.hint - 1] = 0;
+    err.line = err.column = 2147483647;
+    const motus_line line = motus_error_line(&err);
+    assert_int_equal(strlen(line.text), 3 * 511 + strlen(":2147483647:2147483647: ; hint: "));
+    /* An error that nobody made says what makes it. */
+    err.size = 3;
+    assert_non_null(strstr(motus_error_line(&err).text, "motus_default_error()"));
+}
+
+/* Columns by name: one call for several, and one for a value. */
+static void columns_by_name(void **state)
+{
+    (void)state;
+    motus_system *s = given_text("r'' = -r\nr(0) = (1, 2)\nr'(0) = (3, 4)\nnorm = |r|^2\nstep 0.1\nuntil 1\n");
+    motus_run *r = given_run(s, NULL, NAN, NAN);
+    motus_error err = motus_default_error();
+    static const char *const names[] = {"norm", "r'.y", "t"}, *const none[] = {"norm", NULL};
+    size_t columns[3] = {0};
+    double out[3] = {0};
+    must(motus_columns_named(s, 3, names, columns, &err), &err, "columns");
+    must(motus_run_values(r, columns, 3, out, &err), &err, "values");
+    assert_true(out[0] == 5 && out[1] == 4 && out[2] == 0);
+    must(motus_run_value(r, "r.y", out, &err), &err, "value");
+    assert_true(out[0] == 2);
+    must(motus_columns_named(s, 0, NULL, NULL, &err), &err, "no columns");
+    assert_int_equal(motus_run_value(r, "r", out, &err), MOTUS_SHAPE);
+    assert_string_equal(err.message, "r stands for 2 columns, and one is needed");
+    assert_string_equal(err.hint, "name one of them, as r.x");
+    assert_int_equal(motus_run_value(r, "nrom", out, &err), MOTUS_NAME);
+    assert_string_equal(err.hint, "did you mean norm?");
+    assert_int_equal(motus_run_value(r, NULL, out, &err), MOTUS_ARGUMENT);
+    assert_int_equal(motus_run_value(r, "norm", NULL, &err), MOTUS_ARGUMENT);
+    assert_int_equal(motus_run_value(NULL, "norm", out, &err), MOTUS_ARGUMENT);
+    assert_int_equal(motus_columns_named(s, 2, none, columns, &err), MOTUS_ARGUMENT);
+    assert_int_equal(motus_columns_named(NULL, 1, names, columns, &err), MOTUS_ARGUMENT);
+    motus_run_destroy(r);
+    motus_system_destroy(s);
 }
 
 static void errors_name_the_place(void **state)
@@ -1019,6 +1079,8 @@ int main(void)
         cmocka_unit_test(counts_need_arrays),
         cmocka_unit_test(errors_of_every_size),
         cmocka_unit_test(every_status_of_a_text_is_reached),
+        cmocka_unit_test(errors_in_one_line),
+        cmocka_unit_test(columns_by_name),
         cmocka_unit_test(errors_name_the_place),
         cmocka_unit_test(refusals),
         cmocka_unit_test(text_with_a_length_and_settings),

@@ -74,6 +74,20 @@ judge "the README's model is models/driven-oscillator.motus" "$(diff <("$motus" 
 block README.md 1 c >"$place/readme.c"
 judge "the README's C program compiles" "$(cc -std=c17 -Wall -Wextra -Wpedantic -Werror -Iinclude "$place/readme.c" "$build/libmotus.a" -lm -ldl -pthread -o "$place/readme" 2>&1)"
 judge "the README's C program gives x(100)" "$(out=$("$place/readme" 2>&1); grep -q '^x(100) = 0\.04778239807187' <<<"$out" || echo "$out")"
+# The programs at the head of motus.h, each with what it prints; and what the head speaks of.
+part() {
+    awk -v head=" * $1" 'index($0, head) == 1 { on = 1; next } !on { next } / \*     / { print substr($0, 8); next } $0 != " *" { exit } { print "" }' include/motus.h
+}
+judge "motus.h begins with three programs" "$(n=$(grep -cE '^ \* [a-z]+\.c: ' include/motus.h); [ "$n" = 3 ] || echo "$n")"
+for name in $(sed -nE 's/^ \* ([a-z]+\.c): .*/\1/p' include/motus.h); do
+    part "$name:" >"$place/$name"
+    part "$name prints" >"$place/$name.due"
+    judge "$name of motus.h compiles" "$(cc -std=c17 -Wall -Wextra -Wpedantic -Werror -Iinclude "$place/$name" "$build/libmotus.a" -lm -ldl -pthread -o "$place/$name.program" 2>&1)"
+    judge "... and prints what it says" "$("$place/$name.program" >"$place/$name.out" 2>&1 || echo "status $?"; grep -q . "$place/$name.due" || echo nothing
+        diff -B "$place/$name.due" "$place/$name.out")"
+done
+judge "the index of motus.h names what there is" "$(sed -n '1,/^ \*\/$/p' include/motus.h | grep -oE 'motus_[a-z_]+[a-z]' | sort -u |
+    while read -r name; do sed '1,/^ \*\/$/d' include/motus.h | grep -qwE "$name|MOTUS_DEFAULT_FUNCTION\(${name#motus_default_}" || echo "$name"; done)"
 # The manual prints the error as the program does.
 printf "k = 2\nm = 1\nx'' = -1/2x\nx(0) = 1\nx'(0) = 0\n" >"$place/wrong.motus"
 (cd "$place" && mv wrong.motus spring.motus && NO_COLOR=1 "$motus" check spring.motus 2>&1) | sed 's/[ ]*$//' | grep -v '^$' >"$place/said"

@@ -64,6 +64,15 @@ motus_status motus_run_values(motus_run *r, const size_t *columns, size_t count,
     return status;
 }
 
+motus_status motus_run_value(motus_run *r, const char *name, double *out, motus_error *err)
+{
+    if (!motus_error_sound(err)) return MOTUS_ARGUMENT;
+    if (!r || !out) return fail(err, MOTUS_ARGUMENT, "motus_run_value needs a run and a place for the value");
+    size_t column;
+    const motus_status status = motus_columns_named(r->system, 1, &name, &column, err);
+    return status == MOTUS_OK ? motus_run_values(r, &column, 1, out, err) : status;
+}
+
 motus_status motus_run_set_state(motus_run *r, double t, const double *x, const double *v, motus_error *err)
 {
     if (!motus_error_sound(err)) return MOTUS_ARGUMENT;

@@ -134,9 +134,8 @@ motus_status ensemble_make(motus_system *s, const motus_ensemble_def *d, const r
 void ensemble_free(motus_ensemble *e)
 {
     motus_allocator a = e->allocator;
+    motus_system *const used[] = {e->system, e->home};
     ensemble_machine_end(e);
-    motus_system_hold(e->system, false);
-    if (e->home) motus_system_hold(e->home, false);
     ensemble_lanes_end(e);
     ensemble_workers_destroy(e);
     ensemble_outcome_end(e);
@@ -145,4 +144,6 @@ void ensemble_free(motus_ensemble *e)
     give(&a, e->compared_record);
     give(&a, e->how);
     give(&a, e);
+    motus_system_hold(used[0], false); /* last, and before its home, since that may own it */
+    if (used[1]) motus_system_hold(used[1], false);
 }

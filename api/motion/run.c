@@ -214,8 +214,7 @@ void run_destroy(motus_run *r)
 {
     if (!r) return;
     motus_allocator a = r->allocator;
-    motus_system_hold(r->system, false);
-    if (r->home) motus_system_hold(r->home, false);
+    motus_system *const used[] = {r->system, r->home};
     later_end(r);
     stepper_destroy(r->stepper);
     locate_destroy(r);
@@ -224,6 +223,8 @@ void run_destroy(motus_run *r)
     give(&a, r->saved);
     give(&a, r->trace);
     give(&a, r);
+    motus_system_hold(used[0], false); /* last, and before its home, since that may own it */
+    if (used[1]) motus_system_hold(used[1], false);
 }
 
 /* ---- observing ---- */

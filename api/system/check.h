@@ -7,7 +7,8 @@
 
 #include <stdbool.h>
 
-/* Counts a user of the system in or out (set.c): runs, ensembles and references, while which numbers cannot be set. */
+/* Counts a user of the system in or out (system.c): runs, ensembles and references, while which numbers cannot be set.
+ * A system that was destroyed before ends with its last user, which calls this last. */
 void motus_system_hold(motus_system *, bool on);
 /* Checks the size. MOTUS_ARGUMENT, with a hint: no version had it, or it sets a member that is unknown here. */
 motus_status motus_struct_check(motus_def_kind, const void *made, motus_error *);

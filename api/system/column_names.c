@@ -157,6 +157,26 @@ motus_status motus_column_find(const motus_system *s, const char *name, size_t *
     return no_column(s, name, n.base, err);
 }
 
+motus_status motus_columns_named(const motus_system *s, size_t count, const char *const *names, size_t *columns,
+                                 motus_error *err)
+{
+    if (!motus_error_sound(err)) return MOTUS_ARGUMENT;
+    if (!s || (count && (!names || !columns)))
+        return fail(err, MOTUS_ARGUMENT, "motus_columns_named needs a system, names and a place for the columns");
+    for (size_t k = 0; k < count; k++) {
+        size_t numbers = 1;
+        const motus_status status = motus_column_find(s, names[k], &columns[k], &numbers, err);
+        if (status != MOTUS_OK) return status;
+        if (numbers == 1) continue;
+        motus_column first = motus_default_column();
+        motus_column_at(s, columns[k], &first);
+        fail(err, MOTUS_SHAPE, "%s stands for %zu columns, and one is needed", names[k], numbers);
+        hint(err, "name one of them, as %s", first.name);
+        return MOTUS_SHAPE;
+    }
+    return MOTUS_OK;
+}
+
 /* Returns whether "t = " within a sentence is the time: a word before it says so. */
 static bool says_time(const char *sentence, const char *at)
 {

@@ -10,6 +10,7 @@
 #include "api/system/system.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 /* A version that adds members adds its size at the end; the last one is the present size. */
@@ -206,3 +207,17 @@ static size_t known(motus_status s) { return (unsigned)s < MOTUS_STATUS_COUNT ? 
 const char *motus_status_word(motus_status s) { return statuses[known(s)].word; }
 const char *motus_status_text(motus_status s) { return statuses[known(s)].text; }
 int motus_status_exit(motus_status s) { return statuses[known(s)].exit; }
+
+motus_line motus_error_line(const motus_error *given)
+{
+    motus_error err, why = motus_default_error();
+    motus_line line;
+    char place[64] = "";
+    if (motus_struct_read(MOTUS_DEF_ERROR, given, &err, &why) != MOTUS_OK) err = why;
+    if (err.line > 0)
+        snprintf(place, sizeof place, err.file[0] ? ":%d:%d: " : "line %d, column %d: ", err.line, err.column);
+    if (err.file[0] && !err.line) memcpy(place, ": ", sizeof ": ");
+    snprintf(line.text, sizeof line.text, "%s%s%s%s%s", err.file, place, err.message, err.hint[0] ? "; hint: " : "",
+             err.hint);
+    return line;
+}

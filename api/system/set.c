@@ -166,8 +166,6 @@ motus_status motus_system_set(motus_system *s, const char *name, const double *v
     return status;
 }
 
-void motus_system_hold(motus_system *s, bool on) { s->held += on ? 1 : (size_t)-1; }
-
 /* ---- clones ---- */
 
 /* Copies the numbers that were set into a system that was read from that text. */

@@ -22,6 +22,8 @@ static motus_system *begin(const motus_allocator *a)
 void motus_system_destroy(motus_system *s)
 {
     if (!s) return;
+    s->ended = true;
+    if (s->held) return;
     motus_allocator a = s->allocator;
     motus_system_destroy(s->located);
     compiled_close(s->compiled);
@@ -29,6 +31,12 @@ void motus_system_destroy(motus_system *s)
     give(&a, s->events_text);
     give(&a, s->mathml);
     give(&a, s);
+}
+
+void motus_system_hold(motus_system *s, bool on)
+{
+    s->held += on ? 1 : (size_t)-1;
+    if (s->ended) motus_system_destroy(s);
 }
 
 /* Copies `count` texts. NULL: no memory. */

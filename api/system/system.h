@@ -70,7 +70,8 @@ struct motus_system {
     bool judged_gyroscopic, judged_gradient;   /* the trait is known */
     bool sampled_gyroscopic, sampled_gradient; /* the trait holds as far as sampled, and is not proved */
     bool energy;                               /* the potential is proved to have one value everywhere */
-    size_t held;                               /* how many runs, ensembles and references use the system: set.c */
+    size_t held;                               /* how many runs, ensembles and references use the system */
+    bool ended;                                /* it was destroyed while they use it, and ends with the last of them */
     struct setting *settings;
     const char *explanation[3][4]; /* for each answer; gyroscopic and gradient apart */
     char *equation;
