@@ -497,26 +497,46 @@ void events_move(events *e, const machine *m)
     e->probe = NULL;
 }
 
-/* Returns the time from which on the motion goes, in which no time that is known beforehand is a rounding ahead. */
-static double now(const events *e) { return e->left.t + e->way * 4 * events_ulp(e->left.t); }
+/* Computes the acceleration at `left` into a. */
+static void accelerate(const events *e, double *a)
+{
+    const problem *p = &e->problem;
+    memset(a, 0, p->nv * sizeof *a);
+    if (p->accel(p->ctx, e->left.t, e->left.x, e->left.v, a)) memset(a, 0, p->nv * sizeof *a);
+}
+
+/* Moves a companion as if the switches that have passed had changed earlier or later, by a part of the rounding of
+ * their time that differs from one to the next, so that jumps back and forth do not cancel it. */
+static void jog_times(events *e, const double *before)
+{
+    double *const after = e->next.a;
+    const uint32_t salt = (uint32_t)(e->passed_times + 1) * 0x9e3779b9u;
+    const double part = 0.5 + (salt & 0xFFFF) * 0x1p-17, by = (salt >> 31 ? part : -part) * events_ulp(e->left.t);
+    accelerate(e, after);
+    for (size_t k = 0; k < e->problem.nv; k++)
+        if (isfinite(after[k] - before[k])) e->left.v[k] += (after[k] - before[k]) * by;
+}
 
 /* Gives switches that change at known times their sides for the motion from `left` on; h: the size of the next step. */
 static motus_status pass_times(events *e, stepper *s, double h, motus_error *err)
 {
     int64_t passed = 0;
+    if (e->jog && e->stopped) accelerate(e, e->here.a);
     const motus_status status =
-        e->rules.pass ? e->rules.pass(e->rules.ctx, e->way, now(e), e->left.x, e->left.v, &passed, err) : MOTUS_OK;
+        e->rules.pass ? e->rules.pass(e->rules.ctx, e->way, e->left.t, e->left.x, e->left.v, &passed, err) : MOTUS_OK;
     if (status || (!passed && !e->stopped)) return status;
+    if (e->jog && e->stopped && passed) jog_times(e, e->here.a);
     e->passed_times += passed;
     e->stopped = e->left.valued = e->boxed = false;
     return jump(e, s, &e->left, h, err);
 }
 
-/* Returns the end of the next step: `until`, or the first known time before it at which a switch changes. */
+/* Returns the end of the next step: `until`, or the first known time before it at which a switch changes. A rounding
+ * counts, since by it a companion, whose decimals are others, tells what the rounding of that time does. */
 static double next_stop(const events *e, double until)
 {
-    const double stop = e->rules.next ? e->rules.next(e->rules.ctx, e->way, now(e), e->left.x) : until;
-    return e->way * (until - stop) > 8 * events_ulp(until) ? stop : until;
+    const double stop = e->rules.next ? e->rules.next(e->rules.ctx, e->way, e->left.t, e->left.x) : until;
+    return e->way * (until - stop) > 0 ? stop : until;
 }
 
 /* Takes steps of which nothing is asked but their ends. */

@@ -261,7 +261,7 @@ static bool lead(witness *w, double t, double lost, const double *x, const doubl
     }
     const double spent = inner->spent;
     const int64_t before = w->probe ? stepper_evaluations(w->probe) : 0;
-    inner->tries = 0, inner->differs = NAN, inner->held = false;
+    inner->tries = 0, inner->differs = NAN, inner->held = inner->objected = false;
     forget_peak(inner);
     inner->least = least;
     inner->earned = spent + fmax(SPEND_LEAST, (w->steady ? SPEND_LEAD : SPEND_PROBE) / w->operations);
@@ -271,7 +271,10 @@ static bool lead(witness *w, double t, double lost, const double *x, const doubl
     w->failed = status != MOTUS_OK;
     if (!status && why != STOP_UNTIL) inner->differs = stepper_time(w->probe);
     w->spent += inner->spent - spent + (w->steady ? (double)(stepper_evaluations(w->probe) - before) : 0);
-    if (w->steady && !status && why != STOP_UNTIL) return false;
+    const bool stops = status != MOTUS_OK || why != STOP_UNTIL;
+    /* it found what the run's step lacks, and no shorter step shows what the motion is instead */
+    if (w->steady && stops && inner->objected && isnan(w->differs)) w->differs = t;
+    if (w->steady && stops) return false;
     return !status && !stepper_sync(w->probe, end->x, end->v, NULL, NULL);
 }
 

@@ -8,7 +8,7 @@
 #include "lang/graph/graph_place.h"
 #include "lang/graph/plan.h"
 
-enum { DIVISION = 8, FUNCTION_CALL = 20 };
+enum { ENTRY = 2, DIVISION = 8, FUNCTION_CALL = 20 };
 
 static double value_of(operation op)
 {
@@ -24,7 +24,10 @@ static double value_of(operation op)
     case OP_PARAM:
     case OP_INDEX:
     case OP_LOAD:
+    case OP_TABLE:
     case OP_TOTAL: return 0;
+    case OP_ENTRY: return ENTRY;
+    case OP_FIND:
     case OP_DIV:
     case OP_SQRT:
     case OP_MOD: return DIVISION;
