@@ -337,6 +337,58 @@ static void bad_tables(void **state)
     refused("diff(interp(t, T, A), A[2])", "depends on A[2]");
 }
 
+/* A peak of a table between two steps, which neither they nor their companion see, leaves no error that is too
+ * small. */
+static void peaks_between_steps(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *points, *values;
+    } peaks[] = {{"[0, 1.021, 1.0211, 1.0212, 2]", "[0, 0, 1e4, 0, 0]"},
+                 {"[0, 1, 1.000001, 1.000002, 2]", "[0, 0, 2e6, 0, 0]"}};
+    const char *const methods[] = {"rk4", "gauss8"};
+    for (size_t k = 0; k < 2; k++)
+        for (int m = 0; m < 2; m++) {
+            char text[300];
+            snprintf(text, sizeof text, "T = %s\nA = %s\nx'' = interp(t, T, A)\nx(0) = 0; x'(0) = 0\n", peaks[k].points,
+                     peaks[k].values);
+            motus_system *s = given_text(text);
+            motus_run_def def = motus_default_run();
+            motus_error err = motus_default_error();
+            motus_run *r = NULL;
+            const size_t velocity = 2;
+            double value, error;
+            def.method = methods[m];
+            def.step = 0.1;
+            def.error = MOTUS_BARS_CHEAP;
+            def.until = 2;
+            must(motus_run_create(s, &def, &r, &err), &err, text);
+            must(motus_run_finish(r, &err), &err, text);
+            must(motus_run_errors(r, &velocity, 1, &value, &error, &err), &err, text);
+            const double truth = k ? 2 : 1; /* the area of the peak */
+            if (fabs(value - truth) > error) fail_msg("%s, peak %zu: %g, error %g", methods[m], k, value, error);
+            motus_run_destroy(r);
+            motus_system_destroy(s);
+        }
+}
+
+/* A boundary line may be a table. */
+static void boundaries(void **state)
+{
+    (void)state;
+    motus_system *s =
+        given_text("x[1]'' = x[0] - x[1]\nx[0] = interp(t, 0, 1, [0, 1, 3])\nx[1](0) = 0; x[1]'(0) = 0\n");
+    motus_run *r = run_to(s, "dop853", NULL, 1e-12, 1.5);
+    double x[2], v[2];
+    state_of(r, x, v);
+    /* x = t - sin t up to 1; then x = 2 t - 1 + c sin(t - 1) + d cos(t - 1) */
+    const double d = 1 - sin(1.0) - 1, c = 1 - cos(1.0) - 2, wanted = 2 + c * sin(0.5) + d * cos(0.5);
+    const double got = fabs(x[0] - wanted) < fabs(x[1] - wanted) ? x[0] : x[1];
+    if (!(fabs(got - wanted) < 1e-12)) fail_msg("%.17g, %.17g, not %.17g", x[0], x[1], wanted);
+    motus_run_destroy(r);
+    motus_system_destroy(s);
+}
+
 /* motus check says which order steps of one size keep: that which the table leaves, not that of the method. */
 static void explained(void **state)
 {
@@ -371,6 +423,8 @@ int main(void)
         cmocka_unit_test(set),
         cmocka_unit_test(outside),
         cmocka_unit_test(bad_tables),
+        cmocka_unit_test(peaks_between_steps),
+        cmocka_unit_test(boundaries),
         cmocka_unit_test(explained),
     };
     open_shared_cache();

@@ -153,6 +153,18 @@ static char *copy_field(const reading *f, char **copy, size_t k)
     return *copy ? field(f, *copy, k) : NULL;
 }
 
+/* Returns whether a field of the line is a number: then the line is no head. */
+static bool has_number(const reading *f, size_t columns, char **copy)
+{
+    bool any = false;
+    double value;
+    for (size_t k = 0; k < columns && !any; k++) {
+        char *const s = copy_field(f, copy, k);
+        any = s && is_number(f, s, &value);
+    }
+    return any;
+}
+
 /* Finds the column by the first line. *is_row says whether that line is a row, and not the head. */
 static motus_status find_column(reading *f, bool *is_row, motus_error *err)
 {
@@ -161,7 +173,6 @@ static motus_status find_column(reading *f, bool *is_row, motus_error *err)
     const bool counted = !f->column || (typed_count(f->column, &n, &rest) && !*rest);
     char *copy = NULL, *s;
     motus_status status = MOTUS_OK;
-    double value;
     f->between = separator_of(f->line);
     f->doubtful = true;
     const size_t columns = count_fields(f, f->line);
@@ -173,7 +184,7 @@ static motus_status find_column(reading *f, bool *is_row, motus_error *err)
     if (counted) {
         f->place = (size_t)n - 1;
         s = copy_field(f, &copy, f->place);
-        *is_row = !s || is_number(f, s, &value); /* read_row() reports a line that is too short */
+        *is_row = !s || has_number(f, columns, &copy); /* read_row() reports what is missing or no number */
     }
     for (size_t k = 0; f->place == SIZE_MAX && k < columns; k++)
         if ((s = copy_field(f, &copy, k)) && strcmp(s, f->column) == 0) f->place = k;

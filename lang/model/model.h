@@ -330,5 +330,8 @@ const model_state *model_state_of(const model *, uint16_t array);
 bool model_take_extent(model *, model_definition *);
 /* Copies the initial values from the pool into x0 and v0, as is due after every change of them. */
 void model_start_state(model *);
+/* Gives the sides of a located model values from which the force and boundary cells can be computed, until they are
+ * found: row 0 of a table may not be a number. */
+void model_start_sides(model *);
 
 #endif

@@ -1,6 +1,7 @@
 /* Room for a model's numbers and arrays, which move when they grow, so code that reads a model keeps no pointer into
  * them; and the depth of its expressions. */
 #include "lang/model/model.h"
+#include "lang/model/switches.h"
 
 #include <string.h>
 
@@ -65,6 +66,12 @@ bool model_deeper(model *m, const span *at)
     return false;
 }
 
+void model_start_sides(model *m)
+{
+    for (size_t k = 0; m->located && k < m->located->count; k++)
+        if (m->located->op[k] == OP_FIND) m->x0[m->located->slot + k] = 1;
+}
+
 void model_start_state(model *m)
 {
     for (uint32_t i = 0; i < m->state_count + m->mode_count; i++) {
@@ -78,4 +85,5 @@ void model_start_state(model *m)
             memcpy(m->v0 + s->base, first, n * sizeof *first);
         }
     }
+    model_start_sides(m);
 }

@@ -469,4 +469,5 @@ void sliding_locate(model *m)
     m->accel = s->accel;
     m->boundary = s->boundary;
     m->located = s;
+    model_start_sides(m);
 }
