@@ -342,13 +342,30 @@ motus_status sides_choose(sides *s, size_t k, bool left, double way, double t, d
     return status;
 }
 
+/* Returns whether the force has a value, as it has none beyond the ends of a table. */
+static bool has_force(const sides *s)
+{
+    for (size_t i = 0; i < s->problem->nv; i++)
+        if (!isfinite(s->a[i])) return false;
+    return true;
+}
+
 motus_status sides_choose_count(sides *s, size_t k, bool left, double at, double way, double t, double *x, double *v,
                                 motus_error *err)
 {
     double *side = x + s->switches->slot + k, on[2];
-    motus_status status = rate_on(s, k, at, way, t, x, v, &on[0], err);
-    if (status == MOTUS_OK) status = rate_on(s, k, at - 1, way, t, x, v, &on[1], err);
+    bool has[2];
+    motus_status status = MOTUS_OK;
+    for (int i = 0; i < 2 && status == MOTUS_OK; i++)
+        status = rate_on(s, k, at - i, way, t, x, v, &on[i], err), has[i] = has_force(s);
     if (status != MOTUS_OK) return status;
+    if (has[0] != has[1]) { /* an end of a table: the motion that leads to it may turn back there */
+        const double inside = has[0] ? at : at - 1, outside = has[0] ? at - 1 : at;
+        int goes;
+        status = look_ahead(s, k, inside, at, way, t, x, v, &goes, err);
+        *side = goes && (goes > 0) == (outside == at) ? outside : inside;
+        return status;
+    }
     if (on[0] > 0 && on[1] < 0) return sides_refuse(s, k, not_unique, t, err);
     if (on[0] < 0 && on[1] > 0)
         return sides_refuse(s, k, "the motion slides along a jump of the force, which drives it back from both sides,",

@@ -115,6 +115,7 @@ static double count_at(const timed *one, double way, double t, double near)
 {
     const bool finds = one->op == OP_FIND;
     const double n = (double)one->count;
+    if (finds && one->rate == 0 && one->from == value_of(one, n)) return n - 1; /* it rests at the last point */
     double low = finds ? 0 : floor(one->from + one->rate * t) - 2, high = finds ? n + 1 : low + 5;
     for (int i = 0; i < 2; i++) {
         const double k = near + (i == 0 ? 0 : way * one->rate > 0 ? 1 : -1);

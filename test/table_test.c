@@ -274,6 +274,69 @@ static void a_force_of_the_position(void **state)
     motus_system_destroy(s);
 }
 
+/* A motion may begin at the end of a table, touch it and rest there. Both tables are straight lines, so that the
+ * motions are known. */
+static void ends_are_touched(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text;
+        double until, wanted;
+    } cases[] = {{"x'' = -interp(x, [-1, 0, 1], [-1, 0, 1])\nx(0) = 1; x'(0) = 0\n", 10, -0.83907152907645245},
+                 {"x'' = -interp(x, [-1, 0, 1], [-1, 0, 1])\nx(0) = -1; x'(0) = 0\n", 10, 0.83907152907645245},
+                 {"x'' = -x + interp(cos(t), [-1, 0, 1], [-1, 0, 1])\nx(0) = 0; x'(0) = 0\n", 10, -2.7201055544468490},
+                 {"x'' = interp(min(t, 1), [0, 0.25, 1], [0, 1, 4])\nx(0) = 0; x'(0) = 0\n", 3, 38.0 / 3},
+                 {"x'' = interp(max(t, 1), [1, 2, 3], [1, 2, 3])\nx(0) = 0; x'(0) = 0\n", 3, 35.0 / 6}};
+    const char *const methods[] = {"dop853", "taylor", "rk4"};
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++)
+        for (int m = 0; m < 3; m++) {
+            motus_system *s = given_text(cases[k].text);
+            motus_run_def def = motus_default_run();
+            motus_error err = motus_default_error();
+            motus_run *r = NULL;
+            double at[2];
+            def.method = methods[m];
+            if (m == 2)
+                def.step = 0.001, def.switches = MOTUS_SWITCHES_LOCATE;
+            else
+                def.tolerance = 1e-13;
+            def.until = cases[k].until;
+            must(motus_run_create(s, &def, &r, &err), &err, cases[k].text);
+            must(motus_run_finish(r, &err), &err, cases[k].text);
+            state_of(r, at, at + 1);
+            if (!(fabs(at[0] - cases[k].wanted) < 1e-10))
+                fail_msg("%s by %s: %.17g, not %.17g", cases[k].text, methods[m], at[0], cases[k].wanted);
+            motus_run_destroy(r);
+            motus_system_destroy(s);
+        }
+}
+
+/* Steps of one size ask for the entry after the last one at the end of a run; the message names that time and what
+ * helps. */
+static void an_entry_after_the_last(void **state)
+{
+    (void)state;
+    const char *const methods[] = {"rk4", "newmark", "verlet"};
+    for (int m = 0; m < 3; m++)
+        for (int beyond = m == 2; beyond < 2; beyond++) { /* verlet needs no force at the end */
+            motus_system *s = given_text("A = [1, 2, 3, 4]\nx'' = -x + A[floor(t/0.5) + 1]\nx(0) = 0; x'(0) = 0\n");
+            motus_run_def def = motus_default_run();
+            motus_error err = motus_default_error();
+            motus_run *r = NULL;
+            def.method = methods[m];
+            def.step = 0.1;
+            def.until = beyond ? 2.5 : 2;
+            must(motus_run_create(s, &def, &r, &err), &err, methods[m]);
+            assert_true(motus_run_finish(r, &err) != MOTUS_OK);
+            const char *const wanted = beyond ? "until = 2`" : "switches = locate";
+            if (!strstr(err.message, "at t = 2 A has the entries 1 to 4, and 5 is asked for") ||
+                !strstr(err.hint, wanted))
+                fail_msg("%s: %s; %s", methods[m], err.message, err.hint);
+            motus_run_destroy(r);
+            motus_system_destroy(s);
+        }
+}
+
 static void fails(const char *formula, const char *method, const char *words)
 {
     char text[600];
@@ -329,7 +392,8 @@ static void bad_tables(void **state)
     refused("interp(t, A, T)", "the points of a table rise, but in A number 2 is 3 and number 3 -2");
     refused("interp(t, B, A)", "the points of a table are numbers, not vectors");
     refused("interp(t, [0, 1], A)", "2 points, but 4 values");
-    refused("interp(t, 0, -1, A)", "the points of a table rise");
+    refused("interp(t, 0, -1, A)", "the points of a table rise, but from 0 on -1 leads to -1");
+    refused("interp(t, 1e17, 1, A)", "the points of a table rise, but from 1e+17 on 1 leads to 1e+17");
     refused("interp(t, [0], [1])", "a table has two points or more");
     refused("interp(B, T, A)", "B is a list");
     refused("A[t]", "an index is a whole number, and t is not always one");
@@ -421,7 +485,9 @@ int main(void)
         cmocka_unit_test(points_end_steps),
         cmocka_unit_test(backward),
         cmocka_unit_test(set),
+        cmocka_unit_test(ends_are_touched),
         cmocka_unit_test(outside),
+        cmocka_unit_test(an_entry_after_the_last),
         cmocka_unit_test(bad_tables),
         cmocka_unit_test(peaks_between_steps),
         cmocka_unit_test(boundaries),

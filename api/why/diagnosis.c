@@ -296,34 +296,6 @@ static bool undefined_start(judge *j)
     return true;
 }
 
-/* Reports a motion that leaves a table, or the entries of a list. */
-static bool outside_table(judge *j)
-{
-    const evidence *e = &j->e;
-    motus_system *const s = j->home ? j->home : e->system;
-    undefined_term u;
-    size_t which;
-    double at = e->t;
-    char name[MOTUS_NAME_MAX], text[DECIMAL_MAX];
-    if (!s->model || !s->model->table_count) return false;
-    if (!evidence_undefined_here(&j->e, &which) && !evidence_undefined(&j->e, &which, &at)) return false;
-    if (!undefined_find(s->model, which, at, e->other_x, e->other_v, &u) || !u.outside[0]) return false;
-    const double t = isnan(u.time) ? e->t : u.time;
-    const motus_status status = j->err->status;
-    fail(j->err, status, "at t = %s %s", decimal(t, text), u.outside);
-    j->err->time = t;
-    j->err->cause = MOTUS_CAUSE_INFINITE;
-    snprintf(j->err->variable, sizeof j->err->variable, "%s", name_of(j, true, which, name));
-    const char *const holds = u.holds ? "let the end values hold: interp(…, hold)" : "";
-    if (t == j->e.begin) {
-        hint(j->err, "begin elsewhere%s%s", u.holds ? ", or " : "", holds);
-        return true;
-    }
-    attempt(j, true, "until", text);
-    hint(j->err, "end the run there, `until = %s` of the definition%s%s", text, u.holds ? ", or " : "", holds);
-    return true;
-}
-
 static bool undefined(judge *j)
 {
     size_t which;
@@ -351,6 +323,39 @@ static bool propose_locating(judge *j)
     if (!can_locate(j) || !locating_leads(j)) return false;
     attempt(j, true, "switches", "locate");
     hint(j->err, "let steps end where the force jumps, `switches = locate` of the definition");
+    return true;
+}
+
+/* Reports a motion that leaves a table, or the entries of a list. */
+static bool outside_table(judge *j)
+{
+    const evidence *e = &j->e;
+    motus_system *const s = j->home ? j->home : e->system;
+    undefined_term u;
+    size_t which;
+    double at = e->t;
+    char name[MOTUS_NAME_MAX], text[DECIMAL_MAX];
+    if (!s->model || !s->model->table_count) return false;
+    if (!evidence_undefined_here(&j->e, &which) && !evidence_undefined(&j->e, &which, &at)) return false;
+    if (!undefined_find(s->model, which, at, e->other_x, e->other_v, &u) || !u.outside[0]) return false;
+    if (!u.holds && !isnan(u.time) && at != e->t) {
+        at = evidence_undefined_since(&j->e, which, at);
+        if (!undefined_find(s->model, which, at, e->other_x, e->other_v, &u) || !u.outside[0]) return false;
+    }
+    const double t = isnan(u.time) ? e->t : u.time;
+    const motus_status status = j->err->status;
+    fail(j->err, status, "at t = %s %s", decimal(t, text), u.outside);
+    j->err->time = t;
+    j->err->cause = MOTUS_CAUSE_INFINITE;
+    snprintf(j->err->variable, sizeof j->err->variable, "%s", name_of(j, true, which, name));
+    const char *const holds = u.holds ? "let the end values hold: interp(…, hold)" : "";
+    if (e->way * (t - e->begin) <= 0 && (!j->home || e->begin == s->start)) {
+        hint(j->err, "begin elsewhere%s%s", u.holds ? ", or " : "", holds);
+        return true;
+    }
+    if (!u.holds && propose_locating(j)) return true;
+    attempt(j, true, "until", text);
+    hint(j->err, "end the run there, `until = %s` of the definition%s%s", text, u.holds ? ", or " : "", holds);
     return true;
 }
 

@@ -405,6 +405,18 @@ bool evidence_undefined(evidence *e, size_t *which, double *at)
     return false;
 }
 
+double evidence_undefined_since(evidence *e, size_t which, double at)
+{
+    for (double good = e->t;;) {
+        const double middle = good + (at - good) / 2;
+        const bool between = (middle - good) * (at - middle) > 0;
+        const double t = between ? middle : at;
+        move(e, t - e->t);
+        if (!force(e, t, e->other_x, e->other_v, e->b) || !between) return at;
+        *(isfinite(e->b[which]) ? &good : &at) = t;
+    }
+}
+
 bool evidence_noise(evidence *e, size_t *which)
 {
     const problem *p = e->problem;

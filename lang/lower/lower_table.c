@@ -135,8 +135,8 @@ static bool grid_of(lowering *l, const tree *call, size_t count, numbers *out)
     return put_numbers(l, out, &target, &point);
 }
 
-/* Checks that points are numbers, and rise. */
-static bool check_points(lowering *l, const tree *t, const numbers *of)
+/* Checks that points are numbers, and rise. distance: that of a uniform grid, or NULL. */
+static bool check_points(lowering *l, const tree *t, const tree *distance, const numbers *of)
 {
     const double *x = l->model->pool + l->model->arrays[of->array].base;
     char text[80];
@@ -146,6 +146,11 @@ static bool check_points(lowering *l, const tree *t, const numbers *of)
     }
     for (size_t k = 1; k < of->count; k++) {
         if (x[k] > x[k - 1]) continue;
+        if (distance) {
+            COMPLAIN(l, &distance->at, "the points of a table rise, but from %.17g on %s leads to %.17g", x[k - 1],
+                     quote(l, &distance->at, text), x[k]);
+            return false;
+        }
         const long long at = (long long)of->first + (long long)k;
         source_complain(&l->model->source, MOTUS_ARGUMENT, &t->at,
                         "the points of a table rise, but in %s number %lld is %.17g and number %lld %.17g",
@@ -169,7 +174,7 @@ value lower_table(lowering *l, const tree *t)
     if (points.components) COMPLAIN(l, &t->item[1]->at, "the points of a table are numbers, not vectors");
     if (!failed(l) && points.count != list.count)
         COMPLAIN(l, &t->at, "%zu points, but %zu values: a table has as many of both", points.count, list.count);
-    if (failed(l) || !check_points(l, t->item[1], &points)) return wrong(l);
+    if (failed(l) || !check_points(l, t->item[1], uniform ? t->item[2] : NULL, &points)) return wrong(l);
 
     const tree *last = t->item[uniform ? 2 : 1];
     const char *name = kept_text(l, t->at.text, t->item[1]->at.from, last->at.to);

@@ -197,7 +197,7 @@ static const table *table_at(const model *m, node of)
 }
 
 /* Writes which entry a list or a table does not have. */
-static void outside(model *m, const graph_node *entry, const twofold *value, undefined_term *out)
+static void outside(model *m, const graph_node *entry, double now, const twofold *value, undefined_term *out)
 {
     const graph *g = m->graph;
     const table *const t = table_at(m, entry->b);
@@ -206,6 +206,7 @@ static void outside(model *m, const graph_node *entry, const twofold *value, und
     const array *const points = &m->arrays[t->points];
     const int64_t first = points->over->first[0], last = points->over->last[0];
     if (t->kind == TABLE_LIST) {
+        if (!(graph_deps(g, entry->a) & DEP_STATE)) out->time = now;
         snprintf(out->outside, sizeof out->outside, "%s has the entries %lld to %lld, and %g is asked for", t->name,
                  (long long)first, (long long)last, value[g->place[entry->a]].high + (double)(first - 1));
         return;
@@ -238,7 +239,7 @@ static void describe(model *m, const place *p, size_t at, twofold *value, bool *
     if (out->both && moving == mark(p, g->place[n.b], NULL, taken))
         out->has_limit = find_limit(p, at, moving, value, &out->limit);
     model_print(m, p->walk->nodes[at], out->term, sizeof out->term);
-    if (n.op == OP_ENTRY) outside(m, &n, value, out);
+    if (n.op == OP_ENTRY) outside(m, &n, p->t, value, out);
     if (divides) model_print(m, n.b, out->divisor, sizeof out->divisor);
 }
 
