@@ -61,6 +61,11 @@ static inline int _cmocka_run_group_tests(const char *name, const struct CMUnitT
     if (teardown && teardown(&group)) failed++;
     return (int)failed;
 }
+/* A function, since a text may lie in the value of a call, which ends with the expression that has it. */
+static inline void cmocka_same(const char *is, const char *due, const char *what, const char *file, int line)
+{
+    if (strcmp(is, due) != 0) cmocka_leave(file, line, "%s is \"%s\", not \"%s\"", what, is, due);
+}
 #define cmocka_run_group_tests_name(name, tests, setup, teardown) \
     _cmocka_run_group_tests(name, tests, sizeof(tests) / sizeof *(tests), setup, teardown)
 #define cmocka_run_group_tests(tests, setup, teardown) cmocka_run_group_tests_name(#tests, tests, setup, teardown)
@@ -92,10 +97,6 @@ static inline int _cmocka_run_group_tests(const char *name, const struct CMUnitT
         const uintmax_t is = (uintmax_t)(a), due = (uintmax_t)(b);                                     \
         if (is != due) fail_msg("%s is %" PRIdMAX ", not %" PRIdMAX, #a, (intmax_t)is, (intmax_t)due); \
     } while (0)
-#define assert_string_equal(a, b)                                                    \
-    do {                                                                             \
-        const char *const is = (a), *const due = (b);                                \
-        if (strcmp(is, due) != 0) fail_msg("%s is \"%s\", not \"%s\"", #a, is, due); \
-    } while (0)
+#define assert_string_equal(a, b) cmocka_same(a, b, #a, __FILE__, __LINE__)
 
 #endif
