@@ -194,6 +194,8 @@ that "... and prints no digit beyond it" says "x      —"
 gives "chaos in JSON" 0 "$motus" run models/henon-heiles.motus --until 900 --json
 that "... has numbers, and no errors" holds '.significant_until > 200 and .error.x == null and (.state.x | type == "number")'
 gives "a restarted run" 0 "$motus" run $osc --until 1 --save-state "$place/half.state"
+gives "... says where it goes on" 0 "$motus" run $osc --until 2 --restart "$place/half.state"
+that "... at the last full step" says "goes on from the state at t = 1 in $place/half.state"
 gives "... knows its error" 0 "$motus" run $osc --until 2 --restart "$place/half.state" --json
 cp "$out" "$place/restarted"
 gives "... which is" 0 "$motus" run $osc --until 2 --json
@@ -332,6 +334,7 @@ that "run $oscillator takes less than 50 ms of a processor ($best ms)" test $bes
 # --- CSV --------------------------------------------------------------------------------------------------------------------------
 cd "$place" || exit 1
 gives "-o" 0 "$motus" run osc.motus -o traj.csv
+that "... says what the file has" says "traj.csv has 201 rows, one at every step"
 that "the first line is the command" eval "[ \"\$(head -n 1 traj.csv)\" = '# motus run osc.motus -o traj.csv' ]"
 that "the names" eval "[ \"\$(grep -v '^#' traj.csv | head -n 1)\" = \"t,x,x',energy\" ]"
 that "a row for every step and the start" eval "[ \$(grep -vc '^#' traj.csv) = 202 ]"
@@ -540,6 +543,13 @@ that "SIGTERM ends check of a large model" [ $? = 143 ]
 rm large.motus
 "$motus" run "$root/$oscillator" -o - 2>"$err" | head -n 3 >"$out"
 that "a reader that goes away" eval "[ \${PIPESTATUS[0]} != 0 ] || true; [ \$(wc -l <'$out') = 3 ] && empty '$err'"
+exec 7> >(:)
+wait $!
+"$motus" run "$root/$oscillator" -o kept.csv >&7 2>"$err"
+that "a reader that has gone away is a failure" [ $? != 0 ]
+exec 7>&-
+that "... which loses no file" grep -q "^0," kept.csv
+rm -f kept.csv
 
 # --- models that cannot be read -----------------------------------------------------------------------------------------------------
 refuses "a model that is not there" 1 "cannot read" "$motus" run nowhere.motus

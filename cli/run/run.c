@@ -1,7 +1,7 @@
 /* motus run: one integration.
  *
- * Invariant: files get their names after the last call that can fail, so that a run leaves all of them or none. The
- * motion does not depend on what is recorded of it.
+ * Invariant: a run leaves all of its files or none. They have their names before anything is printed, so that a reader
+ * of standard output that goes away loses none. The motion does not depend on what is recorded of it.
  */
 #include "cli/files/file.h"
 #include "cli/files/stop.h"
@@ -32,8 +32,8 @@ typedef struct job {
     motus_error singular;    /* status not 0: the run has passed something that its steps do not resolve */
     motus_error missed;      /* status not 0: the run has not reached its accuracy */
     stop_progress progress;
-    double start, until;
-    double began; /* when the search for the run's method and steps began; NaN: there was none */
+    double start, until, went_on; /* went_on: the time at which it continues a file; NaN: it begins */
+    double began;                 /* when the search for the run's method and steps began; NaN: there was none */
     csv csv;
     run_archive *archive; /* NULL: the rows are not an archive */
     const char *from;     /* the archive that the run continues; NULL: the run begins */
@@ -203,6 +203,7 @@ static motus_status finish(job *j, double seconds, motus_error *err)
         status = figure_draw(&j->figure, j->run, j->estimate.significant_until, o->plot, &j->files[PLOT], err);
     if (!status && o->events) status = event_file_write(&j->files[EVENTS], &j->model, o, j->run, err);
     for (int i = 0; !status && i < FILES; i++) status = file_finish(&j->files[i], err);
+    for (int i = 0; !status && i < FILES; i++) status = file_keep(&j->files[i], err);
     summary s = {&j->model,
                  o,
                  j->run,
@@ -213,14 +214,20 @@ static motus_status finish(job *j, double seconds, motus_error *err)
                  j->def.error != MOTUS_BARS_NONE,
                  j->estimate,
                  &j->singular,
-                 &j->missed};
+                 &j->missed,
+                 j->from      ? j->from
+                 : o->restart ? o->restart
+                              : o->output,
+                 j->went_on,
+                 j->rows.stride,
+                 j->rows.period,
+                 j->archive ? run_archive_rows(j->archive) : j->csv.rows};
     if (j->singular.status) s.estimate.reason = j->singular.message;
     if (!status && o->json)
         status = summary_json(&s, err);
     else if (!status && !o->quiet && !(o->plot && strcmp(o->plot, "-") == 0))
         status = summary_print(&s, err);
     if (!status) status = file_flush_output(err);
-    for (int i = 0; !status && i < FILES; i++) status = file_keep(&j->files[i], err);
     if (!status && !o->quiet && o->plot && j->figure.left_out)
         complain_note("the figure shows only some cells or panels: there are more than it has room for");
     const char *const quantity = motus_quantity_name(j->model.system, 0, NULL);
@@ -271,6 +278,7 @@ static motus_status run(const options *o, const char *from, motus_error *err)
     bool whole = false, finished = false;
     motus_status status = begin(&j, err);
     if (!status) {
+        j.went_on = from || o->resume || o->restart ? motus_run_time(j.run) : NAN;
         j.progress = stop_progress_begin("run", o->quiet);
         const double began = isnan(j.began) ? stop_clock() : j.began;
         status = go(&j, err);

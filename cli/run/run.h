@@ -136,6 +136,7 @@ motus_status run_archive_open(run_archive **, const run_archive_def *, motus_err
 void run_archive_observe(run_archive *, walk_observer *, walk_keeper *);
 /* Writes the last rows and the last state at the end of the run, and makes the file exactly as large as they need. */
 motus_status run_archive_finish(run_archive *, motus_error *);
+int64_t run_archive_rows(const run_archive *);
 /* Replaces the finished file by a compressed one. */
 motus_status run_archive_compress(run_archive *, motus_error *);
 /* Prints, after a failure, what the file has, or removes a new file that no run could continue. `whole` says whether

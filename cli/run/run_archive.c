@@ -469,6 +469,8 @@ motus_status run_archive_open(run_archive **out, const run_archive_def *of, motu
     return status ? status : begin(a, err);
 }
 
+int64_t run_archive_rows(const run_archive *a) { return (int64_t)a->rows; }
+
 void run_archive_observe(run_archive *a, walk_observer *rows, walk_keeper *keeper)
 {
     const options *o = a->of.options;

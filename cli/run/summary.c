@@ -12,6 +12,7 @@
 #include "tell/bar.h"
 #include "tell/tell.h"
 
+#include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -224,7 +225,24 @@ static void head(const summary *s, FILE *out, bool colours)
     fprintf(out, ", %lld evaluations", (long long)done.evaluations);
     if (done.iterations > 0) fprintf(out, ", %lld iterations", (long long)done.iterations);
     fprintf(out, ", %s%s\n", spent, done.trials ? ", trial runs included" : "");
+    if (!isnan(s->went_on) && s->went_on != s->start)
+        fprintf(out, "goes on from the state at %s = %s in %s\n", s->model->time, decimal(s->went_on, from), s->from);
     event_table_end(s, out);
+}
+
+/* Prints how many rows the file has, and when they were taken. */
+static void print_file(const summary *s, FILE *out)
+{
+    const options *o = s->options;
+    char period[DECIMAL_MAX];
+    if (!o->output || strcmp(o->output, "-") == 0) return;
+    fprintf(out, "\n%s has %" PRId64 " row%s, ", o->output, s->rows, s->rows == 1 ? "" : "s");
+    if (s->period > 0)
+        fprintf(out, "one every %s\n", decimal(s->period, period));
+    else if (s->stride > 1)
+        fprintf(out, "one every %" PRId64 " steps\n", s->stride);
+    else
+        fprintf(out, "one at every step\n");
 }
 
 motus_status summary_print(const summary *s, motus_error *err)
@@ -252,6 +270,7 @@ motus_status summary_print(const summary *s, motus_error *err)
         event_table_unseen(s, out);
         if (s->errors) answer_print(s, out);
         answer_choice(s, out);
+        print_file(s, out);
     }
     for (int i = 0; i < TABLES; i++) table_destroy(tables[i]);
     return status || printed ? status : complain_memory(err);

@@ -19,6 +19,11 @@ typedef struct summary {
     motus_estimate estimate;
     const motus_error *singular; /* status not 0: the run has passed something that its steps do not resolve */
     const motus_error *missed;   /* status not 0: the run has not reached its accuracy */
+    const char *from;            /* the file that the run continues */
+    double went_on;              /* at this time; NaN: it begins */
+    int64_t stride;              /* of the rows of the file, in steps, or else */
+    double period;               /* in time */
+    int64_t rows;                /* in the file */
 } summary;
 
 motus_status summary_print(const summary *, motus_error *);
