@@ -112,8 +112,8 @@ bool evidence_jump(evidence *, size_t *which, double *before, double *after);
 /* Returns whether number `which` of the force has no finite value just after the last good state: at time `at`, and the
  * state in other_x and other_v. */
 bool evidence_undefined(evidence *, size_t *which, double *at);
-/* Returns the time since which it has none, at the latest `at`: that of a force whose end depends on the time alone. The
- * state is left in other_x and other_v. */
+/* Returns the time since which it has none, at the latest `at`, if that depends on the time alone. Leaves the state
+ * there in other_x and other_v. */
 double evidence_undefined_since(evidence *, size_t which, double at);
 /* Returns whether number `which` of the force has no finite value at the last good state. */
 bool evidence_undefined_here(evidence *, size_t *which);
