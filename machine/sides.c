@@ -365,18 +365,17 @@ static motus_status settle(void *ctx, double way, double t, double *x, double *v
     const size_t count = s->switches->count;
     double *side = x + s->switches->slot;
     motus_status status = MOTUS_OK;
-    bool settled = false;
+    bool settled = false, jumps;
     s->way = way;
-    sides_pass_times(s, way, t, x, &settled);
-    settled = false;
+    sides_pass_times(s, way, t, x, &jumps);
     memset(s->of, 0, count * sizeof *s->of);
     for (int pass = 0; pass < NESTED && status == MOTUS_OK && !settled; pass++) {
         memcpy(s->kept, side, count * sizeof *side);
         for (size_t k = 0; k < count && status == MOTUS_OK; k++) {
+            if (sides_is_timed(s, k)) continue;
             sides_evaluate(s, s->argument, t, x, v, NULL, s->now);
             sides_evaluate(s, s->rounding, t, x, v, NULL, s->bound);
             find_rows(s, t, x, v, s->now);
-            if (sides_is_timed(s, k)) continue;
             status = place(s, k, s->now[k], 0x1p-53 * s->bound[k], way, t, x, v, err);
         }
         settled = pass > 0 && memcmp(s->kept, side, count * sizeof *side) == 0;

@@ -192,14 +192,7 @@ static value expand(lowering *l, const tree *t, const model_state *s, model_ghos
     lowering inner = *l;
     inner.place = PLACE_EQUATION;
     inner.what = "a boundary line";
-    inner.name_count = 0;
-    inner.argument_count = 0;
-    if (++inner.chain > MODEL_CHAIN_MAX) {
-        source_complain(&l->model->source, MOTUS_LIMIT, &t->at, "boundary lines use one another more than %d deep",
-                        MODEL_CHAIN_MAX);
-        return wrong(l);
-    }
-    lower_add_places(&inner, line, r, low, high);
+    if (!lower_enter_line(&inner, t, line, r, low, high, "boundary lines")) return wrong(l);
     g->expanding = true;
     value v = lower_numbers(&inner, line->value);
     g->expanding = false;

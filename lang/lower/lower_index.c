@@ -221,8 +221,16 @@ bool lower_add_index(lowering *l, const loop *loop, int level, int64_t first, in
     return true;
 }
 
-void lower_add_places(lowering *l, const statement *line, const reference *r, const int64_t low[], const int64_t high[])
+bool lower_enter_line(lowering *l, const tree *t, const statement *line, const reference *r, const int64_t low[],
+                      const int64_t high[], const char *lines)
 {
+    l->name_count = 0;
+    l->argument_count = 0;
+    if (++l->chain > MODEL_CHAIN_MAX) {
+        source_complain(&l->model->source, MOTUS_LIMIT, &t->at, "%s use one another more than %d deep", lines,
+                        MODEL_CHAIN_MAX);
+        return false;
+    }
     for (int d = 0; d < r->dims; d++) {
         const tree *name = line->index[d];
         bool loops = false;
@@ -237,6 +245,7 @@ void lower_add_places(lowering *l, const statement *line, const reference *r, co
                                                  .first = low[d],
                                                  .last = high[d]};
     }
+    return true;
 }
 
 /* Reads the range of a loop; [*low, *high] contains every value of its index, for all values of outer indices. */

@@ -78,8 +78,11 @@ static inline const char *shape_name(const value *v, char out[40])
 const index_name *lower_find_index(const lowering *, const char *name);
 bool lower_add_index(lowering *, const loop *, int level, int64_t first, int64_t last);
 bool lower_range(lowering *, const loop *, range *, int64_t *low, int64_t *high);
-/* Makes the indices of a line known as the subscripts of a reference to one of its cells, which are in [low, high]. */
-void lower_add_places(lowering *, const statement *line, const reference *, const int64_t low[], const int64_t high[]);
+/* Begins to lower, in a copy of a lowering, the right side of another line, which the tree t refers to: its indices are
+ * the subscripts of the reference, which are in [low, high]. lines: what such lines are called. Returns false, with a
+ * message, if too many use one another. */
+bool lower_enter_line(lowering *inner, const tree *t, const statement *line, const reference *, const int64_t low[],
+                      const int64_t high[], const char *lines);
 
 /* Returns the value of a subscript as a node. */
 node lower_subscript_number(lowering *, const subscript *);

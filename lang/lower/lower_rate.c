@@ -36,14 +36,7 @@ static value expand(lowering *l, const tree *t, const model_state *s, const stat
     lowering inner = *l;
     const lower_rates here = {line, l->rates};
     inner.rates = &here;
-    inner.name_count = 0;
-    inner.argument_count = 0;
-    if (++inner.chain > MODEL_CHAIN_MAX) {
-        source_complain(&l->model->source, MOTUS_LIMIT, &t->at, "equations use one another more than %d deep",
-                        MODEL_CHAIN_MAX);
-        return wrong(l);
-    }
-    lower_add_places(&inner, line, r, low, high);
+    if (!lower_enter_line(&inner, t, line, r, low, high, "equations")) return wrong(l);
     const value v = lower_numbers(&inner, line->value);
     return failed(l) || !lower_fits(l->model, line, s, v, "the right side") ? wrong(l) : v;
 }
