@@ -76,7 +76,7 @@ export const sectionPanel = (store: Store): Panel => {
   }
   when.addEventListener('change', () => {
     const wanted = when.value.trim();
-    if (wanted) { change({ when: wanted, starts: section?.when === wanted ? section.starts : [] }); return; }
+    if (wanted) { wrong = ''; change({ when: wanted, starts: section?.when === wanted ? section.starts : [] }); return; }
     refuse(say.empty);
   });
   for (const select of [across, up]) select.addEventListener('change', () => change({ plane: [across.value, up.value] }));
@@ -89,6 +89,8 @@ export const sectionPanel = (store: Store): Panel => {
   const start = (of: Scene): number[] => stateNames(of).map((name) => of.solution.tracks[0]?.columns[of.solution.columns.indexOf(name)]?.[0] ?? NaN);
   /** What replaces numbers of the model, but for where its motion starts. */
   const given = (of: Scene): string[] => Object.entries(of.state.set).filter(([name]) => !name.includes('(0)')).map(([name, value]) => `${name}=${value}`);
+  /** What decides whether there is such a section. */
+  const asked = (of: Scene | null, now: Section | null): string => JSON.stringify([now?.when, of?.state.text, of && given(of)]);
   const model = (of: Scene, { when }: Section) => ({ text: of.state.text, set: given(of), when: isKind(of, when) ? [] : [[when, 'as', `${NAME}:`, 'record'].join(' ')] });
   const flowOf = (of: Scene, from: readonly number[]): Flow => {
     const { method, step, tolerance } = of.solution.tracks[0]!, key = JSON.stringify([model(of, section!), section!.when, method, tolerance === null ? step : tolerance, from]);
@@ -273,12 +275,16 @@ export const sectionPanel = (store: Store): Panel => {
   plane.addEventListener('blur', () => { cross = null; fig.redrawOverlay(); });
 
   function prepare(next: Scene): void {
-    const before = JSON.stringify([section?.when, scene?.state.text]);
+    const before = asked(scene, section);
     scene = next;
     section = sectionOf(next);
     if (!section) return;
     nameExports(next.state.preset);
-    if (before !== JSON.stringify([section.when, next.state.text])) flows.clear();
+    // What was refused stays refused when the same model only comes with more, such as its errors: a message that goes and comes back could not be read.
+    if (before !== asked(next, section)) {
+      flows.clear();
+      wrong = '';
+    }
     const states = stateNames(next), names = movable(next).filter((n) => next.solution.columns.includes(n));
     shown = [...new Set([...states, ...names])].slice(0, Math.max(COLUMNS, states.length));
     const choices = shown.flatMap((name) => [name, ...(columnOf(next, name)?.kind === 'position' || columnOf(next, name)?.kind === 'velocity' ? [name + MODULO] : [])]);
@@ -294,7 +300,6 @@ export const sectionPanel = (store: Store): Panel => {
     up.value = pair[1];
     if (document.activeElement !== when) when.value = section.when;
     clear.hidden = section.starts.length === 0;
-    wrong = '';
     tell();
     fig.redraw();
     soon();

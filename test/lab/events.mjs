@@ -98,6 +98,18 @@ await attempt('a section', async () => {
     for (let n = 0; n < 600 && !why.test(await told()); n++) await page.waitForTimeout(100);
     judge(`“${text}” is no section`, why.test(await told()) && !/ points up to|does not happen/.test(await told()), await told());
   }
+  await section.locator('.section-when').fill('xyz');
+  await section.locator('.section-when').press('Enter');
+  await page.waitForFunction(() => /xyz is not defined/.test(document.querySelector('.section-note').textContent));
+  const notes = await section.evaluate(async (figure) => {
+    const note = figure.querySelector('.section-note'), [across] = figure.querySelectorAll('select'), seen = [];
+    new MutationObserver(() => seen.push(note.textContent)).observe(note, { childList: true, characterData: true, subtree: true });
+    across.value = [...across.options].find(({ value }) => value !== across.value).value;
+    across.dispatchEvent(new Event('change', { bubbles: true }));
+    await new Promise((done) => { setTimeout(done, 1000); });
+    return [...seen, note.textContent];
+  });
+  judge('… and goes on saying so while the rest of the scene changes', notes.every((text) => /xyz is not defined/.test(text)), JSON.stringify(notes));
   await section.locator('.section-when').fill('y = 0');
   await section.locator('.section-when').press('Enter');
   await full('');
