@@ -133,6 +133,9 @@ printf "x'' = 0\nx(0) = 0\nx'(0) = 0\nstep 0.1\nuntil 1\n" >"$place/rest.motus"
 draws "errors that are all 0" compare "$place/rest.motus" --methods verlet
 that "... say so" says "every number is 0" "$script"
 gives "... to gnuplot too" 0 "$motus" compare "$place/rest.motus" --methods verlet -q --plot "$place/rest.svg"
+draws "a comparison of a family" compare models/chain.motus --methods verlet,rk4
+that "... draws the cell that moves furthest" eval "says 'error of x[16] at the steps' '$script' && says 'x[16]' '$script'"
+that "... changes of the energy of 1e-6 and 1e-12 in one panel" [ "$(grep -c '^set logscale y' "$script")" = 2 ]
 draws "a comparison of all" compare models/spring.motus --all
 that "... draws a dozen and the exact motion" [ "$(grep '^plot' "$script" | head -n 1 | grep -o "title '[^']" | wc -l)" = 13 ]
 draws "orders" converge models/damped-cubic.motus

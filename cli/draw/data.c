@@ -14,7 +14,7 @@ enum {
     CELLS = 1600       /* cells along each side of the picture, if there are many points; a cell shows one point */
 };
 
-#define BAND_LEAST 1e-3 /* of the curve's height: a thinner band is no wider than the curve's line */
+#define BAND_LEAST 4e-3 /* of the height of a panel's curves: a thinner band is hardly wider than a line */
 
 bool data_drawable(double v) { return isfinite(v) && fabs(v) < 1e290; }
 
@@ -151,11 +151,12 @@ static void put_curve(FILE *out, plot_curve *c)
 
 static size_t band_place(const plot_curve *c, size_t i) { return c->band_stride ? i * c->band_stride : i; }
 
-bool data_band(const plot_curve *c)
+bool data_band(const plot_panel *p, const plot_curve *c)
 {
-    double widest = 0, low;
+    double widest = 0, low = INFINITY, high = -INFINITY;
     for (size_t i = 0; i < c->band_count; i++) widest = fmax(widest, c->error[band_place(c, i)]);
-    return widest > BAND_LEAST * extent(c, c->y, &low);
+    for (size_t k = 0; k < p->curve_count && widest > 0; k++) data_range(&p->curves[k], p->curves[k].y, &low, &high);
+    return widest > 0 && widest > BAND_LEAST * (high - low);
 }
 
 bool data_rest(const plot_curve *c) { return c->role == PLOT_LINE && c->known < c->count; }
@@ -218,7 +219,7 @@ void data_write(FILE *out, plot_figure *f)
         }
         for (size_t k = 0; k < p->curve_count; k++) {
             put_parts(out, &p->curves[k], i, k);
-            if (!data_band(&p->curves[k])) continue;
+            if (!data_band(p, &p->curves[k])) continue;
             fprintf(out, "$b%zu_%zu << END_OF_DATA\n", i, k);
             put_band(out, &p->curves[k]);
             fputs("END_OF_DATA\n", out);

@@ -41,7 +41,7 @@ static size_t key_lines(const plot_panel *p, size_t *widest)
         bool again = false;
         for (size_t i = 0; i < k; i++)
             again = again || (p->curves[i].role == c->role && strcmp(p->curves[i].label, c->label) == 0);
-        band = band || data_band(c);
+        band = band || data_band(p, c);
         if (again || data_none(c)) continue;
         layout_label(c->label, label);
         lines++;

@@ -205,7 +205,7 @@ static void put_curves(FILE *out, const plot_panel *p, size_t panel)
             const plot_curve *c = &p->curves[k];
             const size_t own = c->role == PLOT_STEPS && index > 0 ? index - 1 : index;
             index += c->role == PLOT_LINE;
-            if (pass == 0 && data_band(c)) {
+            if (pass == 0 && data_band(p, c)) {
                 fprintf(out, "%s$b%zu_%zu using 1:2:3 with filledcurves fc rgb '%s' fs transparent solid 0.25 noborder",
                         comma, panel, k, styles[own % STYLES].colour);
                 put_title(out, banded ? "" : "error");

@@ -75,8 +75,8 @@ bool data_drawable(double);
 void data_range(const plot_curve *, const double *v, double *low, double *high);
 /* Returns whether there are no points of a curve that is drawn upon others. */
 static inline bool data_none(const plot_curve *c) { return c->count == 0 && c->role >= PLOT_STEPS; }
-/* Returns whether a curve has a band that is wider than its line. */
-bool data_band(const plot_curve *);
+/* Returns whether a curve of a panel has a band that is wider than its line. */
+bool data_band(const plot_panel *, const plot_curve *);
 /* Returns whether no digit of a part of the line is known. */
 bool data_rest(const plot_curve *);
 /* Writes the data blocks: $dP_C of curve C in panel P, $uP_C of its part without known digits, $bP_C of its band,
