@@ -140,6 +140,8 @@ draws "a comparison of all" compare models/spring.motus --all
 that "... draws a dozen and the exact motion" [ "$(grep '^plot' "$script" | head -n 1 | grep -o "title '[^']" | wc -l)" = 13 ]
 draws "orders" converge models/damped-cubic.motus
 that "... of a dozen methods" [ "$(keys)" = 12 ]
+draws "orders of methods that become unstable" converge models/ueda.motus --methods verlet,rk4
+that "... end little above the errors on the slopes" eval "sed -n 's/^set yrange .:\(.*\)]$/\1/p' '$script' | awk '{ n++; if (!(\$1 > 1 && \$1 < 1e4)) exit 1 } END { exit n != 1 }'"
 
 # --- sweeps and sections ------------------------------------------------------------------------------------------------------------
 spring="models/damped-spring.motus --set F=1 --record max(x),energy -o $place/rows.csv --force"
@@ -168,6 +170,10 @@ draws "a section of first-order variables" run "$place/lorenz.motus" --method do
 that "... in the plane of the others" eval "says \"set xlabel 'x'\" '$script' && says \"set ylabel 'y'\" '$script'"
 draws "a section that names two of three" run "$place/lorenz.motus" --method dop853 --section "z = 27 + y" --error none
 that "... is drawn against the time" eval "says \"set xlabel 't'\" '$script' && says \"set ylabel 'x'\" '$script'"
+draws "a section of a position that has a first-order variable beside it" run models/van-der-pol.motus --section "x = 0" --error none
+that "... is drawn against the time, since it fixes the position" eval "says \"'t'\" '$script' && says \"x''\" '$script'"
+draws "points at times that differ late" run models/bouncing-ball.motus --section "y = 0" --error none
+that "... have few long numbers" eval "grep -q '^set xtics [0-9]' '$script'"
 draws "a section in space" run models/penning-trap.motus --section "r.x = 0 rising" --error none
 that "... is drawn in the plane of the next component" eval "says \"set xlabel 'r.y'\" '$script' && says \"set ylabel 'r''.y'\" '$script'"
 draws "a section of a family" run models/chain.motus --section "x[1] = 0 rising" --error none

@@ -103,16 +103,24 @@ static bool anything(const plot_panel *p)
     return false;
 }
 
-/* Lets the numbers of an axis have as many digits as its ends differ in, and two more. */
-static void put_format(FILE *out, char axis, range r)
+/* Writes what the numbers of an axis look like: numbers that differ late need more digits than gnuplot's six, as many
+ * as the ends of the axis differ in, and two more. Where these are many, or the axis is short, it has room for three or
+ * four. */
+static void put_numbers(FILE *out, char axis, range r, bool logarithmic, bool is_short)
 {
     const double most = fmax(fabs(r.low), fabs(r.high)), wide = r.high - r.low;
-    const int digits = wide > 0 ? 3 + (int)ceil(log10(most / wide)) : 0;
+    const int digits = wide > 0 && !logarithmic ? 3 + (int)ceil(log10(most / wide)) : 0;
     if (digits > 6) fprintf(out, "set format %c '%%.%dg'\n", axis, digits < 15 ? digits : 15);
+    if (wide > 0 && !logarithmic && (is_short || digits > 6)) {
+        const double power = pow(10, floor(log10(wide / 3))), part = wide / 3 / power;
+        fprintf(out, "set %ctics %.6g\n", axis, power * (part < 2 ? 2 : part < 5 ? 5 : 10));
+    } else {
+        fprintf(out, "set %ctics autofreq\n", axis);
+    }
 }
 
 /* Gives the axes one scale, by more room along one of them; not if the motion would be a tenth of its length high. Time
- * axes end where the curves end. A low panel has room for three or four numbers. */
+ * axes end where the curves end. */
 static void put_ranges(FILE *out, const plot_panel *p, const layout_box *box)
 {
     const range x = range_of(p, false), y = range_of(p, true);
@@ -126,17 +134,11 @@ static void put_ranges(FILE *out, const plot_panel *p, const layout_box *box)
     } else if (p->curve_count && (p->curves[0].timelike || p->log_x) && wide > 0) {
         fprintf(out, "set xrange [%.12g:%.12g]\n", x.low, x.high);
     }
-    /* numbers that differ late need more digits than gnuplot's six */
-    if (!p->logarithmic && !p->log_x) put_format(out, 'x', x);
-    if (!p->logarithmic && !p->log_y) put_format(out, 'y', y);
+    put_numbers(out, 'x', x, p->logarithmic || p->log_x, false);
+    put_numbers(out, 'y', y, p->logarithmic || p->log_y, p->low);
     /* what lies deeper is 0 but for its rounding */
+    if (p->top > 0 && y.high > p->top) fprintf(out, "set yrange [:%.3g]\n", p->top);
     if (p->log_y && y.high > 0 && !(y.low > DEEPEST * y.high)) fprintf(out, "set yrange [%.3g:]\n", DEEPEST * y.high);
-    if (p->low && high > 0) {
-        const double power = pow(10, floor(log10(high / 3))), part = high / 3 / power;
-        fprintf(out, "set ytics %.6g\n", power * (part < 2 ? 2 : part < 5 ? 5 : 10));
-    } else {
-        fputs("set ytics autofreq\n", out);
-    }
 }
 
 static void put_title(FILE *out, const char *label)

@@ -40,6 +40,7 @@ typedef struct plot_panel {
     bool path;           /* lines do not go along the time: each has a mark at its start, and an arrow */
     bool logarithmic;    /* both axes are logarithmic; every point is marked */
     bool log_x, log_y;   /* the horizontal axis is logarithmic; the vertical one */
+    double top;          /* numbers above it are not shown; 0: all are */
     bool low;            /* one that is looked at last: it is a third as high as others */
     plot_curve *curves;
     size_t curve_count;

@@ -25,8 +25,8 @@ typedef struct plane {
     size_t moving[2];               /* the first such position, and its velocity */
     size_t free[2];                 /* first-order variables */
     size_t count, numbers;          /* how many of `free` there are, and how many numbers the state has */
-    char only[MOTUS_NAME_MAX + 64]; /* the name of the last number */
     size_t first[2];                /* the first number of the state, and its velocity */
+    char name[MOTUS_NAME_MAX + 64]; /* that of the first number */
 } plane;
 
 /* Looks at a component of the first cell of a variable; `velocity` is its column, or 0. */
@@ -34,8 +34,10 @@ static void look(const load *m, const char *section, size_t column, size_t veloc
 {
     motus_column c = motus_default_column(), v = motus_default_column();
     if (motus_column_at(m->system, column, &c) || (velocity && motus_column_at(m->system, velocity, &v))) return;
-    if (p->numbers++ == 0) p->first[0] = column, p->first[1] = velocity;
-    snprintf(p->only, sizeof p->only, "%s", c.name);
+    if (p->numbers++ == 0) {
+        p->first[0] = column, p->first[1] = velocity;
+        snprintf(p->name, sizeof p->name, "%s", c.name);
+    }
     if (names(section, c.name, NULL) || (velocity && names(section, v.name, NULL))) return;
     if (velocity && !p->moving[0]) p->moving[0] = column, p->moving[1] = velocity;
     if (!velocity && p->count < 2) p->free[p->count++] = column;
@@ -69,9 +71,9 @@ motus_status section_plane(const load *m, const options *o, size_t columns[2], m
     if (p.numbers == 0)
         return complain(err, MOTUS_ARGUMENT, "choose two columns: --plot-of \"y,y'\"",
                         "--section %s: the model has no state in whose plane to draw it", o->section);
-    /* where one number is all, what the section fixes is no axis */
-    const bool of_x = names(o->section, p.only, &(bool){false}), of_v = names(o->section, p.only, &(bool){true});
-    if (p.numbers == 1 && of_x != of_v) {
+    /* where the first number is all that there is to draw, what the section fixes of it is no axis */
+    const bool of_x = names(o->section, p.name, &(bool){false}), of_v = names(o->section, p.name, &(bool){true});
+    if (chosen == p.first && of_x != of_v) {
         columns[1] = of_x && p.first[1] ? p.first[1] : p.first[0];
         columns[0] = 0;
     } else if (columns[1] == 0) { /* a first-order variable alone */

@@ -13,6 +13,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+enum {
+    TOP = 100
+}; /* a figure has no errors that are so many times the largest on a slope: the method is unstable there */
+
 static void tell(json *j, const void *result) { tell_convergence(j, result); }
 
 /* Prints steps and errors in pairs of lines; errors that the fit leaves out are in brackets. */
@@ -189,7 +193,18 @@ static size_t add_row(plot_panel *p, const motus_converge_row *r, double *number
     return count;
 }
 
-/* Draws error against step, both logarithmic, so that the slope is the order. */
+/* Returns the largest error on a slope; 0: there is no slope. */
+static double largest_used(const motus_convergence *c, const choose_row *rows)
+{
+    double most = 0;
+    for (size_t k = 0; k < c->row_count; k++)
+        for (size_t i = 0; rows[k].shown && i < c->rows[k]->point_count; i++)
+            if (c->rows[k]->points[i]->used) most = fmax(most, c->rows[k]->points[i]->error);
+    return most;
+}
+
+/* Draws error against step, both logarithmic, so that the slope is the order. Of unstable methods, whose errors may be
+ * 1e100, a tenth of the figure is enough. */
 static motus_status draw(studies *s, const void *result, file_out *file, motus_error *err)
 {
     const motus_convergence *c = result;
@@ -213,6 +228,7 @@ static motus_status draw(studies *s, const void *result, file_out *file, motus_e
         status = fail(err, MOTUS_ARGUMENT, "there is nothing to draw: every error is 0 or unknown");
     if (!status) {
         p->logarithmic = true;
+        p->top = TOP * largest_used(c, rows);
         status = plot_draw(&figure, s->options->plot, file, err);
     }
     if (!status) choose_note(drawn, c->row_count, s);
