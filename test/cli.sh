@@ -200,7 +200,7 @@ gives "... knows its error" 0 "$motus" run $osc --until 2 --restart "$place/half
 cp "$out" "$place/restarted"
 gives "... which is" 0 "$motus" run $osc --until 2 --json
 that "... nearly that of the whole run" [ "$(jq -s '(.[0].error.x / .[1].error.x - 1) | fabs < 0.1' "$out" "$place/restarted")" = true ]
-gives "a state without errors" 0 "$motus" run $osc --until 1 --error none --save-state "$place/half.state"
+gives "a state without errors" 0 "$motus" run $osc --until 1 --error none --save-state "$place/half.state" --force
 gives "... does not know them" 0 "$motus" run $osc --restart "$place/half.state"
 that "... and says why" says "error: not known, because the run was restored"
 that "... behind the number too" says " ±?"
@@ -418,7 +418,7 @@ refuses "friction that sticks, compiled" 1 "$("$motus" run sticks.motus --method
     "$motus" run sticks.motus --method dop853 --tolerance 1e-6 --switches step --machine compiled
 gives "... sticks where its switches are located" 0 "$motus" run sticks.motus
 that "... at once" grep -q "0 ±" "$out"
-refuses "a motion that leaves the finite numbers" 1 "t = " "$motus" run blow.motus -o kept.csv --save-state kept.state --plot kept.svg
+refuses "a motion that leaves the finite numbers" 1 "t = " "$motus" run blow.motus -o kept.csv --save-state kept.state --plot kept.svg --force
 that "... leaves the old file as it was" eval "[ \"\$(cat kept.csv)\" = precious ]"
 that "... and makes no new one" eval "absent kept.state && absent kept.svg && nothing_left ."
 "$motus" run blow.motus --json >"$out" 2>"$err"
@@ -545,7 +545,7 @@ rm large.motus
 that "a reader that goes away" eval "[ \${PIPESTATUS[0]} != 0 ] || true; [ \$(wc -l <'$out') = 3 ] && empty '$err'"
 exec 7> >(:)
 wait $!
-"$motus" run "$root/$oscillator" -o kept.csv >&7 2>"$err"
+"$motus" run "$root/$oscillator" -o kept.csv --force >&7 2>"$err"
 that "a reader that has gone away is a failure" [ $? != 0 ]
 exec 7>&-
 that "... which loses no file" grep -q "^0," kept.csv
@@ -658,6 +658,7 @@ that "... and marks it" holds '.suggested == {"step": 0.05, "until": 50} and .st
 # --- restart ------------------------------------------------------------------------------------------------------------------------
 restart_case() {            # model, step, half, whole, method
     local model=$1 step=$2 half=$3 whole=$4 method=$5
+    rm -f state first.csv second.csv whole.csv
     "$motus" run "$model" --step "$step" --until "$whole" --method "$method" --json -o whole.csv >whole.json 2>"$err" &&
         "$motus" run "$model" --step "$step" --until "$half" --method "$method" -q --save-state state -o first.csv 2>"$err" &&
         "$motus" run "$model" --step "$step" --until "$whole" --method "$method" --json --restart state -o second.csv >second.json 2>"$err" ||
@@ -678,7 +679,7 @@ that "... after an end between steps" restart_case osc.motus 0.01 0.705 2 verlet
 that "... to an end between steps" restart_case osc.motus 0.01 0.7 1.995 verlet
 that "... with a step that is no binary fraction" restart_case osc.motus 1/3 5 20 verlet
 that "... backward" restart_case osc.motus 0.01 -0.7 -2 velocity-verlet
-"$motus" run osc.motus -q --until 1 --save-state state
+"$motus" run osc.motus -q --until 1 --save-state state --force
 gives "a state may be replaced by the next one" 0 "$motus" run osc.motus -q --restart state --save-state state
 cp state good
 gives "a restart without --until" 0 "$motus" run osc.motus --restart good --json

@@ -258,17 +258,17 @@ M
 for half in 4.2 4.237; do # on a time of the grid, and between two
     for method in verlet rk4 gauss6; do
         kicks="$place/kicks.motus --method $method --step 0.01 --error none --quiet"
-        "$motus" run $kicks --until $half --save-state "$place/kicks.state" --events "$place/first.csv"
-        gives "a continued run with events, $method from $half" 0 "$motus" run $kicks --until 9.5 --restart "$place/kicks.state" --events "$place/second.csv"
-        "$motus" run $kicks --until 9.5 --events "$place/whole.csv"
+        "$motus" run $kicks --until $half --save-state "$place/kicks.state" --force --events "$place/first.csv"
+        gives "a continued run with events, $method from $half" 0 "$motus" run $kicks --until 9.5 --restart "$place/kicks.state" --events "$place/second.csv" --force
+        "$motus" run $kicks --until 9.5 --events "$place/whole.csv" --force
         that "... has the table of the whole run" eval "diff <(grep -v '^# motus' '$place/second.csv' | tail -n +2) <(grep -v '^# motus' '$place/whole.csv' | tail -n +2)"
         that "... which is longer than that of the first" eval "[ \$(rows '$place/whole.csv' | wc -l) -gt \$(rows '$place/first.csv' | wc -l) ]"
     done
 done
 sed 's/rising as up/falling as up/' "$place/kicks.motus" >"$place/other.motus"
 refuses "the state of a run with other events" 2 "belongs to another model" "$motus" run "$place/other.motus" --method gauss6 --step 0.01 --until 9.5 --restart "$place/kicks.state"
-"$motus" run "$place/kicks.motus" --method dop853 --until 5 --save-state "$place/kicks.state" --quiet
-gives "the errors of a continued run" 0 "$motus" run "$place/kicks.motus" --method dop853 --until 9.5 --restart "$place/kicks.state" --events "$place/second.csv"
+"$motus" run "$place/kicks.motus" --method dop853 --until 5 --save-state "$place/kicks.state" --force --quiet
+gives "the errors of a continued run" 0 "$motus" run "$place/kicks.motus" --method dop853 --until 9.5 --restart "$place/kicks.state" --events "$place/second.csv" --force
 that "... cover all its events" eval "rows '$place/second.csv' | awk -F, '{ n++ } !(\$3 > 0 && \$3 < 1e-4) { exit 1 } END { exit n < 30 }'"
 
 # --- sweeps -------------------------------------------------------------------------------------------------------------------------
@@ -287,7 +287,7 @@ gives "the events of a sweep" 0 "$motus" sweep $flock -o "$place/rows.csv" --eve
 that "... have a head" eval "[ \"\$(head_of '$place/flock.csv')\" = \"index,event,t,count,touched,y,y',n,y.after,y'.after,n.after\" ]"
 that "... of all trajectories" eval "[ \"\$(rows '$place/flock.csv' | cut -d, -f1 | uniq | tr '\\n' ' ')\" = \"\$(seq -s ' ' 0 26) \" ]"
 same_as_run() { # number, settings of one trajectory
-    "$motus" run "$place/flock.motus" --set "$2" --set "$3" --method rk4 --step 0.01 --until 3 --quiet --error none --events "$place/one.csv" &&
+    "$motus" run "$place/flock.motus" --set "$2" --set "$3" --method rk4 --step 0.01 --until 3 --quiet --error none --events "$place/one.csv" --force &&
         diff <(rows "$place/flock.csv" | grep "^$1," | cut -d, -f2-) <(rows "$place/one.csv")
 }
 that "... the first those of a run" same_as_run 0 e=0.5 k=0

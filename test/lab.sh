@@ -167,7 +167,7 @@ refuses "the page as its own copy" 2 "would be overwritten" "$motus" lab osc.mot
 ln -s page.html link.html
 refuses "... through a link" 2 "would be overwritten" "$motus" lab osc.motus -o link.html
 echo precious >kept.html
-"$motus" lab osc.motus --no-open -o kept.html >/dev/full 2>"$err"
+"$motus" lab osc.motus --no-open -o kept.html --force >/dev/full 2>"$err"
 that "a full standard output" eval "[ $? = 1 ] && says 'standard output' '$err'"
 that "... leaves the old page as it was" is "$(cat kept.html)" precious
 "$motus" lab osc.motus --no-open -o open.html >"$out"

@@ -64,7 +64,7 @@ S
 print() {
     local ending=$1
     shift
-    rm -f p.* events.csv figure.svg
+    rm -f p.* events.csv figure.svg end.state
     "$motus" "$@" -o p.$ending -q >/dev/null 2>&1 </dev/null || return
     case $ending in
     npy) echo "$(jq -r .fingerprint p.npy.json) $( (cat p.npy; jq -c .columns p.npy.json) | md5sum)"; return ;;
@@ -116,6 +116,54 @@ judge "... each is accepted with fixed or adaptive steps" "$(awk '$3 == "motion"
     END { for (key in all) if (!some[key]) print key }' found)"
 judge "no other setting changes it" "$(awk '$3 != "motion" && $5 == "changes"' found)"
 judge "files of one fingerprint have the same numbers" "$(sort -u prints | sed 's/ [0-9a-f]*  -$//' | uniq -d)"
+
+# --- files that exist -------------------------------------------------------------------------------------------------------------
+printf "x'' = -x\nx(0) = 1\nx'(0) = 0\nuntil 1\n" >write.motus
+vary=(--vary "x(0)=1:2:3" --method rk4 --step 0.1)
+"$motus" sweep write.motus "${vary[@]}" --shard 1/2 -o shard%K.csv -q && "$motus" sweep write.motus "${vary[@]}" --shard 2/2 -o shard%K.csv -q
+[ -n "$archive" ] && "$motus" run write.motus --method rk4 --step 0.1 -o written.h5 -q
+printf '<meta name="motus-start" content="">\n' >page.html
+over() { # verb, option: it is refused where its file exists, and writes over it with --force
+    local verb=$1 option=$2 words file=there.csv more=()
+    case $verb in
+    merge) words=(merge shard1.csv shard2.csv) ;;
+    archive) [ -n "$archive" ] || return; words=(archive written.h5) ;;
+    sweep) words=(sweep write.motus "${vary[@]}" --when "x = 0: record") ;;
+    lab) words=(lab write.motus --no-open); export MOTUS_LAB_PAGE=$place/page.html ;;
+    converge) words=(converge write.motus --methods verlet) ;;
+    compare) words=(compare write.motus --methods verlet) ;;
+    *) words=("$verb" write.motus --step 0.1) ;;
+    esac
+    [ "$option" = --plot ] && file=there.svg
+    [ $verb$option = sweep--output ] || more=(-q)
+    echo precious >$file
+    "$motus" "${words[@]}" "${more[@]}" $option $file >out 2>&1
+    [ $? = 2 ] && grep -q "^motus: $file exists$" out && grep -q -- '--force replaces it' out && [ "$(cat $file)" = precious ] || { echo "$verb $option"; cat out; }
+    "$motus" "${words[@]}" $option $file --force >out 2>&1 && [ -s $file ] && ! grep -q precious $file || { echo "$verb $option --force"; cat out; }
+    : >$file
+    "$motus" "${words[@]}" $option $file >out 2>&1 && [ -s $file ] || { echo "$verb $option: an empty file"; cat out; }
+}
+judge "no verb writes over a file without --force" "$(while IFS=$'\t' read -r kind option _ argument verbs setting _; do
+    [ "$kind" = option ] && [ "$setting" = files ] && [[ $argument = FILE || $argument = FIG ]] || continue
+    for verb in ${verbs//,/ }; do over $verb $option </dev/null; done; done <table)"
+judge "... and the table has such options" "$([ "$(grep -cE $'^option\t[^\t]*\t[^\t]*\tFI(LE|G)\t.*\tfiles\t' table)" -ge 4 ] || echo few)"
+"$motus" run write.motus --step 0.1 --until 0.5 --save-state on.state -q
+judge "a restart state may be replaced by the next one" "$("$motus" run write.motus --step 0.1 --restart on.state --save-state on.state -q 2>&1)"
+
+# --- what goes together -----------------------------------------------------------------------------------------------------------
+refused() { # words: they are refused as a request, with a hint
+    "$motus" "$@" >out 2>&1 </dev/null
+    [ $? = 2 ] && grep -q '^  hint: ' out && ! grep -q null out || { echo "$@"; cat out; }
+}
+judge "options that mean nothing are refused" "$(
+    for words in "--skip 1" "--points 1" "--plot-of t,x" "--columns x" "--every 0.1" "--errors" "--force" "--emit-c -o x.csv" "--emit-c --restart x.state" "--emit-c --plot x.svg" \
+        "--section x=0 --skip 1" "--share -o x.csv"; do refused run write.motus $words; done
+    for words in "--step 0.1" "--evaluations 100" "--machine compiled" "--force"; do refused converge write.motus $words; done
+    for words in "--evaluations 100 --step 0.1" "--accuracies 1e-3 --step 0.1" "--accuracies 1e-3 --evaluations 100" "--machine compiled" "--all --methods rk4" "--force"; do
+        refused compare write.motus $words; done
+    for words in "--every 0.5" "--every 0.5 --record final" "--fast --machine interpreter" "--force" "--force --resume -o x.csv"; do refused sweep write.motus --vary "x(0)=1,2" $words; done
+    for words in "--threads 2" "--machine compiled" "--force"; do refused archive x.h5 $words; done
+    refused lab write.motus --no-open --force)"
 
 # --- completions ------------------------------------------------------------------------------------------------------------------
 export PATH=$(dirname "$motus"):$PATH

@@ -10,7 +10,7 @@ script=$place/script
 printf '#!/bin/sh\ncat >"%s"\nprintf x\n' "$script" >"$place/bin/gnuplot"
 chmod +x "$place/bin/gnuplot"
 # name, words of the command
-draws() { gives "$1" 0 env PATH="$place/bin:$PATH" "$motus" "${@:2}" -q --plot "$place/fig.svg"; }
+draws() { gives "$1" 0 env PATH="$place/bin:$PATH" "$motus" "${@:2}" -q --plot "$place/fig.svg" --force; }
 # The numbers of curve $2 in panel $1, counted from 0.
 block() { sed -n "/^\\\$d$1_$2 << END_OF_DATA/,/^END_OF_DATA/p" "$script" | sed '1d;$d'; }
 count() { block "$1" "$2" | grep -c .; }
@@ -52,7 +52,7 @@ draws "a quantity and the height" run "$ball" --plot-of "t,E,y"
 that "... both" eval "[ $(keys '^title .(E|y).$') = 2 ]"
 that "... an axis of two units has neither" says "set ylabel ''" "$script"
 refuses "ten columns" 2 "two columns are needed, and 9 are the most" "$motus" run "$ball" --plot-of t,y,y,y,y,y,y,y,y,y --plot "$place/no.svg"
-gives "a note" 0 env PATH="$place/bin:$PATH" "$motus" run "$ball" --plot "$place/fig.svg"
+gives "a note" 0 env PATH="$place/bin:$PATH" "$motus" run "$ball" --plot "$place/fig.svg" --force
 that "... how to draw a quantity" says '--plot-of "t,E" draws one' "$err"
 
 # --- events -------------------------------------------------------------------------------------------------------------------------

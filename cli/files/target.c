@@ -58,11 +58,12 @@ void target_tidy(const char *archive)
 motus_status target_check(const options *o, const char *path, motus_error *err)
 {
     const bool output = strcmp(path, "-") == 0;
+    const char *const read = o->text ? NULL : o->operand;
     if (!*path) return fail(err, MOTUS_ARGUMENT, "the name of an output file is empty");
-    if (o->operand && !output && file_same(path, o->operand))
-        return fail(err, MOTUS_ARGUMENT, "%s is read and would be overwritten", o->operand);
-    if (o->operand && target_archive(path) && target_replaces(path, o->operand))
-        return fail(err, MOTUS_ARGUMENT, "%s is read and would be overwritten while %s is made", o->operand, path);
+    if (read && !output && file_same(path, read))
+        return fail(err, MOTUS_ARGUMENT, "%s is read and would be overwritten", read);
+    if (read && target_archive(path) && target_replaces(path, read))
+        return fail(err, MOTUS_ARGUMENT, "%s is read and would be overwritten while %s is made", read, path);
     struct stat about;
     if (output || o->plan || stat(path, &about) != 0) return MOTUS_OK; /* a plan writes no file */
     if (S_ISDIR(about.st_mode)) return fail(err, MOTUS_FILE, "cannot write %s: it is a folder", path);
@@ -72,8 +73,10 @@ motus_status target_check(const options *o, const char *path, motus_error *err)
                     : target_npy(path) ? "a .npy must be one"
                                        : "an archive must be one");
     if (S_ISREG(about.st_mode) && about.st_size > 0 && !o->resume && !o->force) {
+        const bool continued = o->verb == VERB_SWEEP ? path == o->output || path == o->events
+                                                     : o->verb == VERB_RUN && target_archive(path);
         fail(err, MOTUS_ARGUMENT, "%s exists", path);
-        hint(err, "%s--force replaces it", o->verb == VERB_SWEEP ? "--resume continues it, " : "");
+        hint(err, "%s--force replaces it", continued ? "--resume continues it, " : "");
         return MOTUS_ARGUMENT;
     }
     return MOTUS_OK;

@@ -19,7 +19,8 @@ bool target_replaces(const char *archive, const char *input);
 /* Removes the files that a killed program left beside an archive, which this program has locked. */
 void target_tidy(const char *archive);
 
-/* Fails if the options do not allow writing this file ("-": standard output). */
+/* Fails if the options do not allow writing this file ("-": standard output). Every file that a command names passes
+ * here before anything is computed, unless the command goes on in it: without --force nothing is written over. */
 motus_status target_check(const options *, const char *path, motus_error *);
 /* Opens and locks a file; fails if another program writes it. *regular is false for a device or a pipe, which is open
  * for writing only. */

@@ -2,6 +2,7 @@
 #include "cli/model/columns.h"
 
 #include "base/decimal.h"
+#include "cli/files/file.h"
 #include "cli/words/complain.h"
 
 #include <stdlib.h>
@@ -36,6 +37,7 @@ static motus_status write_list(columns_list *to, const char *item, motus_error *
 motus_status columns_set(columns *c, options *o, motus_error *err)
 {
     motus_status status = MOTUS_OK;
+    const char *const out[] = {o->output, o->events, o->plot, o->save_state};
     *c = (columns){.list = calloc(o->set.count + 1, sizeof *c->list)};
     if (!c->list) return complain_memory(err);
     for (size_t k = 0; k < o->set.count && !status; k++) {
@@ -43,6 +45,9 @@ motus_status columns_set(columns *c, options *o, motus_error *err)
         if (!file) continue;
         columns_list *const to = &c->list[c->count++];
         status = column_of(file, &to->path, &to->of, err);
+        for (size_t i = 0; !status && i < sizeof out / sizeof *out; i++)
+            if (out[i] && file_same(out[i], to->path))
+                status = fail(err, MOTUS_ARGUMENT, "%s is read and would be overwritten", out[i]);
         if (!status) status = write_list(to, o->set.items[k], err);
         if (!status) o->set.items[k] = to->text;
     }

@@ -49,13 +49,11 @@ static bool is_archive(const options *o) { return o->output && target_archive(o-
 static motus_status check_archive(const options *o, motus_error *err)
 {
     const char *only = o->resume                     ? "--resume"
-                       : o->force                    ? "--force"
                        : o->compress                 ? "--compress"
                        : o->given[OPTION_checkpoint] ? "--checkpoint"
                                                      : NULL;
     if (only && !is_archive(o))
         return complain(err, MOTUS_ARGUMENT, "write it: -o run.h5", "%s is for a run into an archive", only);
-    if (o->force && o->resume) return fail(err, MOTUS_ARGUMENT, "--force and --resume exclude each other");
     if (o->restart && is_archive(o))
         return complain(err, MOTUS_ARGUMENT, "the archive has its own states: motus run FILE.h5 --until T continues it",
                         "--restart: a run into an archive begins at its start");
@@ -80,7 +78,11 @@ static motus_status check_names(const options *o, const char *from, motus_error 
             if (out[k] && file_same(out[i], out[k]))
                 return fail(err, MOTUS_ARGUMENT, "%s is named for two outputs", out[k]);
     }
-    const motus_status status = check_archive(o, err);
+    motus_status status = check_archive(o, err);
+    for (size_t i = 0; !status && i < FILES; i++) {
+        const char *goes_on = i == CSV ? from : i == STATE ? o->restart : NULL; /* what may be written in its place */
+        if (out[i] && !(goes_on && file_same(out[i], goes_on))) status = target_check(o, out[i], err);
+    }
     if (status) return status;
     if (o->json && o->plot && strcmp(o->plot, "-") == 0)
         return fail(err, MOTUS_ARGUMENT, "--json and --plot - both write to standard output");

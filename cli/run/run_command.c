@@ -57,8 +57,6 @@ motus_status run_command_of(run_command *c, motus_archive *a, const options *ask
     const char **words = c->argv.items;
     if (c->argv.count < 2 || strcmp(words[0], "motus") != 0 || strcmp(words[1], "run") != 0)
         return no_run(asked->operand, err);
-    words[c->argv.count++] = "-o"; /* some options need it; words_split() left room for two more */
-    words[c->argv.count++] = "archive.h5";
     status = options_read(&c->options, VERB_RUN, (int)c->argv.count, (char **)words, 2, err);
     if (!status && (c->options.help || !c->options.operand)) return no_run(asked->operand, err);
     options *own = &c->options;
@@ -97,9 +95,9 @@ motus_status run_command_read(run_command *c, const options *o, motus_error *err
     if (!status) status = run_command_of(c, a, o, err);
     motus_archive_close(a);
     if (!status) status = take_over(c, o, err);
-    if (status || o->output || !(o->force || o->resume)) return status;
+    if (status || o->output || !o->resume) return status;
     return complain(err, MOTUS_ARGUMENT, "leave it out, or name another file: -o other.h5",
-                    "%s: the run continues in %s itself", o->force ? "--force" : "--resume", o->operand);
+                    "--resume: the run continues in %s itself", o->operand);
 }
 
 void run_command_free(run_command *c)

@@ -5,6 +5,7 @@
 #include "cli/study/studies.h"
 
 #include "cli/draw/plot.h"
+#include "cli/files/target.h"
 #include "cli/words/complain.h"
 #include "cli/words/text.h"
 
@@ -16,8 +17,7 @@ motus_status studies_begin(studies *s, const char *what, bool steps, const optio
 {
     *s = (studies){.options = o};
     motus_status status = o->plot ? plot_check(o->plot, err) : MOTUS_OK;
-    if (!status && o->plot && o->operand && file_same(o->plot, o->operand))
-        status = fail(err, MOTUS_ARGUMENT, "%s is read and would be overwritten", o->operand);
+    if (!status && o->plot) status = target_check(o, o->plot, err);
     if (!status) status = load_model(&s->model, o, err);
     /* these methods admit all forces; the model's own method need not be among those that are studied */
     motus_run_def run = motus_default_run();

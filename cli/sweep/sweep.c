@@ -21,6 +21,11 @@
 static motus_status read_every(sweep *s, motus_error *err)
 {
     const options *o = s->options;
+    bool sampled = false;
+    for (size_t k = 0; k < s->records.count; k++) sampled |= s->records.items[k].how != MOTUS_REDUCE_FINAL;
+    if (o->given[OPTION_every] && !sampled && !o->text) /* an archive may have such a command */
+        return complain(err, MOTUS_ARGUMENT, "add such a one: --record \"max(x)\"",
+                        "--every: no min, max or mean is recorded, so nothing is sampled");
     s->every = o->every.steps > 0 ? o->every.steps : 1;
     if (o->every.time > 0 && isnan(s->step))
         return complain(err, MOTUS_ARGUMENT, "a sweep samples at steps: give --every \"10 steps\"",
@@ -290,10 +295,10 @@ static motus_status finish(const sweep *s, sweep_file *f, sweep_events *events, 
 }
 
 /* Puts the number of the shard into the names of its files. The caller frees `names`. */
-static motus_status name_files(const sweep *s, options *o, char *names[2], motus_error *err)
+static motus_status name_files(const sweep *s, options *o, char *names[3], motus_error *err)
 {
-    const char **const given[] = {&o->output, &o->events};
-    for (int k = 0; k < 2; k++) {
+    const char **const given[] = {&o->output, &o->events, &o->plot};
+    for (int k = 0; k < 3; k++) {
         if (!*given[k]) continue;
         names[k] = shard_file(&s->shard, *given[k]);
         if (!names[k]) return complain_memory(err);
@@ -331,7 +336,7 @@ motus_status sweep_verb(const options *o, motus_error *err)
     stop_progress progress = stop_progress_begin("sweep", o->quiet);
     if (o->team) progress.meanwhile = o->team->answer, progress.with = o->team->context;
     const double began = stop_clock();
-    char *names[2] = {NULL, NULL};
+    char *names[3] = {NULL};
     motus_status status = shard_read(&s.shard, o->shard, err);
     s.block = sweep_archive_block(&own);
     if (!status) status = name_files(&s, &own, names, err);
@@ -359,8 +364,7 @@ motus_status sweep_verb(const options *o, motus_error *err)
     sweep_file_close(&f);
     sweep_events_close(&events);
     sweep_section_close(&section);
-    free(names[0]);
-    free(names[1]);
+    for (int k = 0; k < 3; k++) free(names[k]);
     sweep_free(&s);
     return status;
 }

@@ -26,13 +26,9 @@ motus_status sweep_file_check(const options *o, motus_error *err)
 {
     const char *path = o->output ? o->output : "-";
     bool output = strcmp(path, "-") == 0;
-    if (o->force && o->resume)
-        return complain(err, MOTUS_ARGUMENT, "--resume continues the file, --force replaces it",
-                        "--force and --resume exclude each other");
     if (o->compress && (output || !target_archive(path)))
         return complain(err, MOTUS_ARGUMENT, "-o FILE.h5", "--compress is for archives");
-    if (output && (o->resume || o->force))
-        return complain(err, MOTUS_ARGUMENT, "add -o FILE", "%s needs a file", o->resume ? "--resume" : "--force");
+    if (output && o->resume) return complain(err, MOTUS_ARGUMENT, "add -o FILE", "--resume needs a file");
     if (output && o->json)
         return complain(err, MOTUS_ARGUMENT, "write the rows to a file: -o sweep.csv",
                         "--json and the rows both go to standard output");

@@ -4,6 +4,7 @@
  * Invariant: the points are in the order of the trajectories, and those of a trajectory in the order of time.
  */
 #include "cli/draw/plot.h"
+#include "cli/files/target.h"
 #include "cli/run/figure.h"
 #include "cli/sweep/sweep.h"
 #include "cli/words/complain.h"
@@ -21,12 +22,12 @@ motus_status sweep_section_check(const options *o, motus_error *err)
     if (o->resume)
         return complain(err, MOTUS_ARGUMENT, "leave out one of them",
                         "--resume and --plot exclude each other: a picture has all trajectories of one command");
-    const char *const others[] = {o->output, o->events, o->operand};
+    const char *const others[] = {o->output, o->events};
     for (size_t k = 0; k < sizeof others / sizeof *others; k++)
         if (others[k] && file_same(others[k], o->plot))
-            return fail(err, MOTUS_ARGUMENT,
-                        k < 2 ? "%s is named for two outputs" : "%s is read and would be overwritten", o->plot);
-    return plot_check(o->plot, err);
+            return fail(err, MOTUS_ARGUMENT, "%s is named for two outputs", o->plot);
+    const motus_status status = target_check(o, o->plot, err);
+    return status ? status : plot_check(o->plot, err);
 }
 
 /* Finds which names of --plot-of are varied numbers. If one is, the other name is a column. */

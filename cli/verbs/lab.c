@@ -8,6 +8,7 @@
 #include "cli/files/file.h"
 #include "cli/files/spawn.h"
 #include "cli/files/stop.h"
+#include "cli/files/target.h"
 #include "cli/model/load.h"
 #include "cli/model/share.h"
 #include "cli/words/complain.h"
@@ -154,7 +155,8 @@ static motus_status name_output(job *j, motus_error *err)
     for (size_t i = 0; i < 2; i++)
         if (read[i] && strcmp(j->output, "-") != 0 && file_same(j->output, read[i]))
             return fail(err, MOTUS_ARGUMENT, "%s is read and would be overwritten", read[i]);
-    return MOTUS_OK;
+    /* a page with the name that motus gives is replaced: it holds only what the model says */
+    return o->output ? target_check(o, o->output, err) : MOTUS_OK;
 }
 
 static motus_status print_path(const job *j, motus_error *err)

@@ -94,6 +94,7 @@ static motus_status dispatch(int argc, char **argv, bool as_json, bool *answered
     options o;
     motus_status status = options_read(&o, v->bit, argc, argv, first + 1, err);
     o.json = o.json || as_json;
+    if (!status && !o.help) status = options_check(&o, err);
     o.answered = answered;
     o.team = t;
     /* if standard output is closed, nobody wants a report besides a file */

@@ -101,58 +101,6 @@ motus_bars options_bars(const options *o)
     return !strcmp(o->error, "none") ? MOTUS_BARS_NONE : !strcmp(o->error, "full") ? MOTUS_BARS_FULL : MOTUS_BARS_CHEAP;
 }
 
-/* ---- options that do not go together ---- */
-
-static motus_status check_share(const options *o, motus_error *err)
-{
-    for (size_t k = 0; k < OPTION_COUNT; k++) {
-        const option *row = options_row(k);
-        if (!o->given[k] || row->link || k == OPTION_share || row->setting == OF_MACHINE || row->verbs == VERB_ALL)
-            continue;
-        return complain(err, MOTUS_ARGUMENT, "--share computes nothing: it prints a link's model and settings",
-                        "--share and %s exclude each other", row->name);
-    }
-    return MOTUS_OK;
-}
-
-/* Options that do not go together. */
-typedef struct rule {
-    bool broken;
-    const char *what, *right;
-} rule;
-
-static motus_status check(const options *o, motus_error *err)
-{
-    static const char each[] = "with --accuracies each method gets the step, or the tolerance, that it needs for them";
-    const bool run = o->verb == VERB_RUN, none = options_bars(o) == MOTUS_BARS_NONE, lab = o->verb == VERB_LAB;
-    const bool accuracies = o->given[OPTION_accuracies];
-    const rule rules[] = {
-        {accuracies && o->evaluations, "--accuracies and --evaluations exclude each other", each},
-        {accuracies && !isnan(o->step), "--accuracies and --step exclude each other", each},
-        {!accuracies && o->verb == VERB_COMPARE && o->machine, "--machine needs --accuracies",
-         "add --accuracies 1e-3:1e-12"},
-        {o->errors && none, "--errors and --error none exclude each other", "leave one out"},
-        {o->errors && run && !o->output, "--errors needs -o, which names the CSV", "add -o traj.csv"},
-        {o->verb == VERB_SWEEP && o->error && !none && !o->errors, "--error needs --errors in a sweep",
-         "add --errors, which adds the columns of errors"},
-        {o->threads > MOTUS_THREADS_MAX, "--threads is too large",
-         "more threads than the computer has cores make nothing faster"},
-        {!o->section && o->skip, "--skip needs --section", "add --section \"x = 0 rising\""},
-        {!o->section && o->most_points, "--points needs --section", "add --section \"x = 0 rising\""},
-        {o->plot_of && !o->plot, "--plot-of needs --plot, which names the file", "add --plot fig.svg"},
-        {run && o->columns && !o->events && !o->output, "--columns needs -o, which names the CSV", "add -o traj.csv"},
-        {run && o->given[OPTION_every] && !o->output, "--every needs -o, which names the CSV", "add -o traj.csv"},
-        {o->json && o->events && strcmp(o->events, "-") == 0, "--json and --events - both write to standard output",
-         "write the events to a file: --events events.csv"},
-        {o->json && o->output && strcmp(o->output, "-") == 0, "--json and -o - both write to standard output",
-         lab ? "write the page to a file: -o lab.html" : "write the CSV to a file: -o traj.csv"},
-        {o->json && o->markdown, "--json and --markdown exclude each other", "leave one out"},
-    };
-    for (size_t k = 0; k < sizeof rules / sizeof *rules; k++)
-        if (rules[k].broken) return complain(err, MOTUS_ARGUMENT, rules[k].right, "%s", rules[k].what);
-    return o->share ? check_share(o, err) : MOTUS_OK;
-}
-
 motus_status options_read(options *o, unsigned verb, int argc, char **argv, int first, motus_error *err)
 {
     *o = (options){.verb = verb, .argc = argc, .argv = argv};
@@ -198,5 +146,5 @@ motus_status options_read(options *o, unsigned verb, int argc, char **argv, int 
         status = options_value(o, k, row->kind == FLAG ? "" : value, err);
         if (status) return status;
     }
-    return o->help ? MOTUS_OK : check(o, err);
+    return MOTUS_OK;
 }

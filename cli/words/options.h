@@ -88,6 +88,14 @@ typedef enum option_print {
     PRINT_ELSEWHERE /* not as an option: other code mixes it in */
 } option_print;
 
+/* What an option needs with these verbs: one of the options, whose names are separated by blanks. */
+typedef struct option_needs {
+    unsigned verbs;
+    const char *options;
+} option_needs;
+
+enum { OPTION_NEEDS = 2 };
+
 typedef struct option {
     option_kind kind;
     size_t place, size; /* of its member in struct options */
@@ -97,6 +105,8 @@ typedef struct option {
     const char *brief;
     const char *choices; /* words for the value, separated by blanks */
     const char *more;    /* follows the help in the manual, and nowhere else */
+    option_needs needs[OPTION_NEEDS];
+    const char *excludes; /* names of options, separated by blanks */
     option_print print;
     bool late; /* comes after the other options in the fingerprint */
     char link; /* its key in a link to the lab; 0: links do not have it */
@@ -127,6 +137,9 @@ typedef struct options {
 
 /* Reads argv, which begins with the program's name, from the verb's first argument on. */
 motus_status options_read(options *, unsigned verb, int argc, char **argv, int first, motus_error *);
+/* Fails if options do not go together (options_check.c). The command in a file has been checked, and lacks those that
+ * say where its results go. */
+motus_status options_check(const options *, motus_error *);
 void options_free(options *);
 const option *options_row(size_t k); /* k < OPTION_COUNT */
 /* Copies a text of a row without its backquotes. Returns out. */

@@ -9,6 +9,7 @@
 enum {
     STUDY = VERB_COMPARE | VERB_CONVERGE,
     ONE = VERB_RUN | VERB_SWEEP,
+    STEPS = ONE | VERB_COMPARE | VERB_LAB, /* converge has steps of its own */
     SOLVES = ONE | STUDY | VERB_LAB,
     MODEL = SOLVES | VERB_CHECK
 };
@@ -33,7 +34,8 @@ const char *options_plain(const char *help, char out[OPTIONS_HELP])
 void options_hint(const option *row, motus_error *err)
 {
     char help[OPTIONS_HELP];
-    hint(err, "%s %s: %s", row->name, row->argument, options_plain(row->help, help));
+    hint(err, "%s%s%s: %s", row->name, row->argument ? " " : "", row->argument ? row->argument : "",
+         options_plain(row->help, help));
 }
 
 static const char *const verbs[] = {

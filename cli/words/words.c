@@ -36,7 +36,7 @@ motus_status words_split(const char *text, char **memory, options_list *list, mo
     const size_t length = strlen(text);
     *list = (options_list){0};
     *memory = malloc(length + 1);
-    list->items = calloc(length / 2 + 4, sizeof *list->items);
+    list->items = calloc(length / 2 + 2, sizeof *list->items);
     if (!*memory || !list->items) return complain_memory(err);
     char *to = *memory;
     for (const char *at = text; *(at += strspn(at, " "));) {

@@ -9,8 +9,8 @@
 #include <stdint.h>
 
 /* Splits a command that command_word() has written. Blanks separate words; text between two ' is literal, $'\xNN' is a
- * byte, and a character after \ is literal. The items point into *memory, and there is room for two more. The caller
- * frees *memory and the list's items, also after a failure. */
+ * byte, and a character after \ is literal. The items point into *memory. The caller frees *memory and the list's
+ * items, also after a failure. */
 motus_status words_split(const char *text, char **memory, options_list *, motus_error *);
 
 /* Splits "x,r.x,u[1,2]" at the commas outside brackets. */

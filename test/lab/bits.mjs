@@ -37,7 +37,7 @@ for (const file of folders.flatMap((models) => readdirSync(models).filter((name)
   const free = /^\s*when /m.test(text);
   for (const { name: method } of methods.filter(({ name, admitted }) => admitted && !(free && name.endsWith('-reversible')))) {
     const until = end(method), state = join(folder, 'state'), tolerance = adaptive.has(method) ? 1e-8 : null;
-    const run = spawnSync(program, ['run', file, '--method', method, '--until', String(until), '--save-state', state, '--error', 'none', '--quiet', '-o', join(folder, 'out.csv'),
+    const run = spawnSync(program, ['run', file, '--method', method, '--until', String(until), '--save-state', state, '--error', 'none', '--quiet', '-o', join(folder, 'out.csv'), '--force',
       ...(tolerance ? ['--tolerance', String(tolerance)] : [])], { encoding: 'utf8' });
     core.start(lab, method, null, until, tolerance);
     let said = '';
