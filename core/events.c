@@ -183,7 +183,8 @@ static motus_status take_sides(events *e, motus_error *err)
 {
     motus_status status = events_values(e, &e->left, err);
     if (status) return status;
-    status = events_judge(e, &e->left, err);
+    status = events_has_values(e, &e->left, err);
+    if (!status) status = events_judge(e, &e->left, err);
     for (size_t f = 0; f < e->rules.functions; f++) {
         const double g = e->left.g[f];
         const bool internal = e->rules.rule[e->rule_of[f]].internal;
@@ -453,6 +454,7 @@ static motus_status piece(events *e, stepper *s, double until, int64_t most, boo
     if (!status && e->candidates) status = go_through(e, s, assigned, why, err);
     const bool cut = *assigned || *why == STOP_EVENT;
     if (cut) events_cut_extrema(e, e->here.t);
+    if (!status && !cut) status = events_keeps_values(e, err);
     if (!status && e->witness) e->halted |= e->witness(e->witness_ctx, s, cut ? e->here.t : e->right.t);
     return status;
 }

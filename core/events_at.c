@@ -170,7 +170,7 @@ void events_copy(const events *e, instant *to, const instant *from)
     if (e->rules.functions) memcpy(to->g, from->g, e->rules.functions * sizeof *to->g);
 }
 
-enum { PARTS = 2, PARTS_ULPS = 1 << 12 };
+enum { PARTS = 2, PARTS_ULPS = 1 << 12, HALVINGS_MOST = 100 };
 
 motus_status events_probe(events *e, double from, double lost, const double *x, const double *v, double h, double *t,
                           double *rest, motus_error *err)
@@ -227,4 +227,32 @@ double events_place_in(const events *e, double h)
     const double t = e->left.t + (e->left.lost + h);
     if (e->way * (t - e->left.t) < 0) return e->left.t;
     return e->way * (e->right.t - t) < 0 ? e->right.t : t;
+}
+
+motus_status events_has_values(events *e, const instant *at, motus_error *err)
+{
+    motus_status status = MOTUS_OK;
+    for (size_t f = 0; e->rules.undefined && f < e->rules.functions && !status; f++)
+        if (isnan(at->g[f])) status = e->rules.undefined(e->rules.ctx, f, at->t, at->t, at->x, at->v, err);
+    return status;
+}
+
+motus_status events_keeps_values(events *e, motus_error *err)
+{
+    motus_status status = MOTUS_OK;
+    for (size_t f = 0; e->rules.undefined && e->right.valued && f < e->rules.functions && !status; f++) {
+        if (!isnan(e->right.g[f]) || isnan(e->left.g[f])) continue;
+        double low = 0, high = e->span;
+        events_copy(e, &e->next, &e->right);
+        for (int k = 0; k < HALVINGS_MOST && !status && fabs(high - low) > 2 * events_ulp(e->right.t); k++) {
+            const double h = low + (high - low) / 2;
+            status = events_at_of(e, f, h, &e->next, err);
+            *(isnan(e->next.g[f]) ? &high : &low) = h;
+        }
+        if (!status) status = events_at_of(e, f, high, &e->next, err);
+        const instant *at = &e->next;
+        const double last = events_place_in(e, low);
+        if (!status) status = e->rules.undefined(e->rules.ctx, f, last, at->t, at->x, at->v, err);
+    }
+    return status;
 }

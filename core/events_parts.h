@@ -247,6 +247,10 @@ motus_status events_bounds(events *, instant *, motus_error *);
 motus_status events_values(events *, instant *, motus_error *);
 /* Evaluates all functions at both ends of the step, where that has not been done. */
 motus_status events_value_ends(events *, motus_error *);
+/* Fails where a function has lost its value in the step, which is behind, or has none at an instant, though it should
+ * (rules.h). Overwrites `next`. */
+motus_status events_keeps_values(events *, motus_error *);
+motus_status events_has_values(events *, const instant *, motus_error *);
 /* Evaluate one function, or its rate, bound, or both, where that costs less than all. The entries of other functions
  * then belong to another instant. */
 motus_status events_value_of(events *, size_t function, instant *, motus_error *);

@@ -81,6 +81,10 @@ typedef struct rules {
      * at the state. */
     int (*rates)(void *ctx, double t, double *x, double *v, double *a, double *out);
     bool rates_without_a; /* `rates` does not read a, which need not be computed */
+    /* Fails where a function has no value at a state although it should, as outside of a table: with the sentence, and
+     * `last`, the latest time at which it had one. NULL: every function may lack a value. */
+    motus_status (*undefined)(void *ctx, size_t function, double last, double t, const double *x, const double *v,
+                              motus_error *);
     /* Bounds the rounding error of each function's value, if t and each number of the state are off by half a unit in
      * the last place. NULL: no formula is known. */
     void (*rounding)(void *ctx, double t, double *x, double *v, double *out);

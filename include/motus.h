@@ -947,6 +947,10 @@ MOTUS_API motus_status motus_run_values(motus_run *, const size_t *columns, size
 /* Writes the present value of the column with a name, "energy". In a loop find the columns once: motus_columns_named.
  * Fails as that and motus_run_values do. */
 MOTUS_API motus_status motus_run_value(motus_run *, const char *name, double *out, motus_error *);
+/* Tells why a quantity or invariant has no finite value at the present state. MOTUS_DIVERGED: err->message says it, "t
+ * goes beyond 5, the last point of the table A", and err->hint what helps, where that is known. MOTUS_OK: the value is
+ * finite, or the reason is not known. Fails besides as motus_run_values does. */
+MOTUS_API motus_status motus_run_undefined(motus_run *, size_t column, motus_error *);
 /* Writes columns at given times, which follow the direction of the run and end at or before `until`. It takes steps as
  * needed; between steps it evaluates the method's dense output, of the order motus_method.dense_order. That is a
  * polynomial of the stages (bs32, dopri5, tsit5, verner6 to verner9, dop853, dep6; gauss10 to gauss16, radau15), the

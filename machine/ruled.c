@@ -5,8 +5,10 @@
  */
 #include "machine/ruled.h"
 
+#include "base/decimal.h"
 #include "lang/graph/graph_place.h"
 #include "lang/model/resolution.h"
+#include "lang/model/undefined.h"
 #include "lang/model/whole.h"
 #include "lang/tape/lone.h"
 #include "lang/tape/tape.h"
@@ -27,7 +29,7 @@ typedef struct leaf {
 } leaf;
 
 struct ruled {
-    const model *model;
+    model *model;
     rules supplied;
     rule *rule;
     tape *values, *rates, *rounding, *least, *least_rates; /* NULL: there are no functions */
@@ -229,6 +231,24 @@ static void name(void *ctx, size_t number, size_t instance, char *out, size_t si
                               k == rule->own - 1 ? "]" : "");
 }
 
+static motus_status undefined(void *ctx, size_t f, double last, double t, const double *x, const double *v,
+                              motus_error *err)
+{
+    const ruled *r = ctx;
+    const leaf *l = &r->leaf[leaf_of(r, f)];
+    model *m = r->model;
+    const model_rule *of = &m->rules[l->rule - r->rule];
+    undefined_term u;
+    char at[DECIMAL_MAX], of_event[MOTUS_NAME_MAX + 64];
+    if (!undefined_find(m, of->leaf, of->leaves, f, t, x, v, &u) || !u.outside[0]) return MOTUS_OK;
+    if (u.holds && !isnan(u.time)) last = u.time;
+    name(ctx, (size_t)(l->rule - r->rule), f - l->first, of_event, sizeof of_event);
+    fail(err, MOTUS_EVENTS, "at t = %s the occasion of %s has no value: %s", decimal(last, at), of_event, u.outside);
+    if (err) err->time = last;
+    undefined_hint(&u, undefined_until(&u, last, m->start), last == m->start, err);
+    return MOTUS_EVENTS;
+}
+
 /* ---- making ---- */
 
 /* Makes what computes single functions, rates, and bounds on rounding. */
@@ -420,6 +440,7 @@ static bool make(ruled *r, model *m)
                           .rates = rates,
                           .rates_without_a = true,
                           .rounding = rounding,
+                          .undefined = m->table_count ? undefined : NULL,
                           .least = least,
                           .least_rates = least_rates,
                           .apart = apart,

@@ -50,6 +50,14 @@ static double grip_rounding_of(const sides *s, size_t k)
     return (s->dr[k] + fabs(s->r[k])) * fabs((1 - p) * (1 + p)) + fabs(s->r[k]) * 2 * p * (s->dp[k] + 1);
 }
 
+static motus_status undefined(void *ctx, size_t f, double last, double t, const double *x, const double *v,
+                              motus_error *err)
+{
+    const sides *s = ctx;
+    const bool own = f < s->own.functions && s->own.undefined;
+    return own ? s->own.undefined(s->own.ctx, f, last, t, x, v, err) : MOTUS_OK;
+}
+
 static int values(void *ctx, double t, double *x, double *v, double *out)
 {
     const sides *s = ctx;
@@ -464,6 +472,7 @@ static bool make(sides *s, model *m)
     s->supplied.rates = rates;
     s->supplied.rates_without_a = false;
     s->supplied.rounding = rounding;
+    s->supplied.undefined = undefined;
     s->supplied.least = least;
     s->supplied.least_rates = least_rates;
     s->supplied.alone = NULL;

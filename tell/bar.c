@@ -88,6 +88,7 @@ char *bar_text(double value, double error, char out[BAR_MAX])
 {
     char number[DECIMAL_MAX], bar[DECIMAL_MAX];
     if (isinf(error)) return strcpy(out, "—");
+    if (isnan(value)) return strcpy(out, "undefined");
     decimal(value == 0 ? 0 : value, number); /* no -0 */
     if (error == 0 || isnan(error) || !isfinite(value)) {
         snprintf(out, BAR_MAX, "%s%s", number, error == 0 ? value == 0 ? " (exact)" : "" : " ±?");

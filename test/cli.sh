@@ -252,6 +252,10 @@ M
 table=$place/table.motus
 gives "--set of two lists" 0 "$motus" run $table --json --set "T = [0, 1, 2.5]" --set "A=[0.5, 1.5, -1]"
 sed 's/"seconds".*//' "$out" >"$place/lists"
+sed 's/interp.*/0/' $table >"$place/observed.motus"
+echo 'q = interp(t, T, A)' >>"$place/observed.motus"
+gives "a quantity outside of its table" 0 "$motus" run "$place/observed.motus"
+that "... is said to be undefined, and why" grep -q '^  q  *undefined: t goes beyond 1, the last point of the table A; .*interp(…, hold)$' "$out"
 printf 'time,acc (g)\n# a comment\n0,0.5\n1,1.5\n\n2.5,-1\n' >"$place/a.csv"
 printf 't;a\n0,0;0,5\n1,0;1,5\n2,5;-1\n' >"$place/b.csv"
 printf '0\t0,5\r\n1\t1,5\r\n2,5\t-1\r\n' >"$place/c.tsv"

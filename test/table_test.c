@@ -361,10 +361,70 @@ static void outside(void **state)
     (void)state;
     const char *const methods[] = {"dop853", "taylor", "rk4"};
     for (int m = 0; m < 3; m++) {
-        fails("interp(t, T, A)", methods[m], "at t = 4 t goes beyond the last point of the table T, A, 4");
-        fails("spline(x, T, A) + 5", methods[m], "x goes beyond the last point of the table T, A, 4");
-        fails("interp(x - 9, T, A)", methods[m], "at t = 0 x - 9 goes before the first point of the table T, A, 0");
+        fails("interp(t, T, A)", methods[m], "at t = 4 t goes beyond 4, the last point of the table A");
+        fails("spline(x, T, A) + 5", methods[m], "x goes beyond 4, the last point of the table A");
+        fails("interp(x - 9, T, A)", methods[m], "at t = 0 x - 9 goes before 0, the first point of the table A");
+        fails("interp(7, T, A)", methods[m], "at t = 0 the argument 7 is beyond 4, the last point of the table A");
         fails("A[floor(t) + 1]", methods[m], "A has the entries 1 to 4, and 5 is asked for");
+    }
+}
+
+/* What observes the motion may leave a table: an event ends the run there, and a quantity says why it has no value. The
+ * end that the message names is one. */
+static void observers_outside(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *lines, *says, *hint;
+    } cases[] = {
+        {"when interp(t, T, A) > 0.5 as up: record\n", "at t = 4 the occasion of up has no value: t goes beyond 4", ""},
+        {"when spline(t, T, A) = 9 as up: x' = 0\n", "at t = 4 the occasion of up has no value: t goes beyond 4", ""},
+        {"when interp(x - 5.3, T, A) = 9 as low: record\n", "x - 5.3 goes before 0, the first point of the table A",
+         ""},
+        {"when A[floor(x) - 2] > 9 as low: record\n", "A has the entries 1 to 4, and 0 is asked for", ""},
+        {"when interp(y[i] - i, 0, 1, A) = 9 as low: record for i = 1..2\ny[i]'' = 0 for i = 1..2\ny[i](0) = 5 - i for "
+         "i = 1..2\ny[i]'(0) = -i for i = 1..2\n",
+         "the occasion of low[2] has no value: y[i] - i goes before 0, the first point of the table A", ""},
+        {"q = interp(t, T, A)\n", "t goes beyond 4, the last point of the table A", "interp(…, hold)"},
+        {"q = spline(x - 5.3, T, A)\n", "x - 5.3 goes before 0, the first point of the table A", "spline(…, hold)"},
+        {"q = sqrt(x - 7)\n", "sqrt(x - 7) is not a number there", ""},
+        {"q = time(up)\nwhen x = 70 as up: record\n", "the event that it tells of has not happened", ""}};
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        char text[700];
+        snprintf(text, sizeof text, "%sx'' = -0.1\nx(0) = 6; x'(0) = 0\n%s", lists, cases[k].lines);
+        const bool quantity = cases[k].lines[0] == 'q';
+        const char *const methods[] = {"dop853", "taylor", "rk4", "verlet"};
+        for (int m = 0; m < 4; m++) {
+            motus_system *s = given_text(text);
+            motus_run_def def = motus_default_run();
+            motus_error err = motus_default_error();
+            motus_run *r = NULL;
+            size_t column, count;
+            def.method = methods[m];
+            if (m > 1) def.step = 0.3;
+            def.until = 9;
+            must(motus_run_create(s, &def, &r, &err), &err, text);
+            motus_status status = motus_run_finish(r, &err);
+            if (quantity) {
+                must(status, &err, text);
+                must(motus_column_find(s, "q", &column, &count, &err), &err, text);
+                status = motus_run_undefined(r, column, &err);
+            }
+            assert_int_equal(status, quantity ? MOTUS_DIVERGED : MOTUS_EVENTS);
+            if (!strstr(err.message, cases[k].says) || !strstr(err.hint, cases[k].hint))
+                fail_msg("%s by %s: %s; %s", cases[k].lines, methods[m], err.message, err.hint);
+            motus_run_destroy(r);
+            double until = 0;
+            if (sscanf(err.hint, "end the run there, `until = %lf`", &until) == 1) {
+                def.until = until;
+                must(motus_run_create(s, &def, &r, &err), &err, text);
+                must(motus_run_finish(r, &err), &err, text);
+                motus_run_destroy(r);
+            } else {
+                assert_true(quantity);
+            }
+            motus_system_destroy(s);
+        }
     }
 }
 
@@ -396,6 +456,11 @@ static void bad_tables(void **state)
     refused("interp(t, 1e17, 1, A)", "the points of a table rise, but from 1e+17 on 1 leads to 1e+17");
     refused("interp(t, [0], [1])", "a table has two points or more");
     refused("interp(B, T, A)", "B is a list");
+    refused("interp(t, 0, 1, A[2])", "interp takes a list here, and A[2] is none");
+    refused("if(x > 1, k2, 1)\nk2 = interp(7, T, A)", "k2 has no value: the argument 7 is beyond 4, the last point of");
+    refused("f(2)\nf(c) = interp(t, 0, c, A)", "a point of a table is fixed and cannot depend on c");
+    refused("1\ny[i]'' = interp(t, 0, 1, [1, i]) for i = 1..2\ny[i](0) = 0 for i = 1..2\ny[i]'(0) = 0 for i = 1..2",
+            "an entry of a list is fixed and cannot depend on i");
     refused("A[t]", "an index is a whole number, and t is not always one");
     refused("A[x + 1]", "an index is a whole number, and x + 1 is not always one");
     refused("diff(interp(t, T, A), A[2])", "depends on A[2]");
@@ -487,6 +552,7 @@ int main(void)
         cmocka_unit_test(set),
         cmocka_unit_test(ends_are_touched),
         cmocka_unit_test(outside),
+        cmocka_unit_test(observers_outside),
         cmocka_unit_test(an_entry_after_the_last),
         cmocka_unit_test(bad_tables),
         cmocka_unit_test(peaks_between_steps),

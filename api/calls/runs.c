@@ -3,6 +3,8 @@
 #include "api/search/goal.h"
 #include "api/motion/locate.h"
 #include "api/motion/run_events.h"
+#include "api/system/columns.h"
+#include "lang/model/undefined.h"
 #include "machine/cache.h"
 
 #include <math.h>
@@ -71,6 +73,24 @@ motus_status motus_run_value(motus_run *r, const char *name, double *out, motus_
     size_t column;
     const motus_status status = motus_columns_named(r->system, 1, &name, &column, err);
     return status == MOTUS_OK ? motus_run_values(r, &column, 1, out, err) : status;
+}
+
+motus_status motus_run_undefined(motus_run *r, size_t column, motus_error *err)
+{
+    double value = 0;
+    undefined_term why;
+    const motus_status status = motus_run_values(r, &column, 1, &value, err);
+    if (status != MOTUS_OK || isfinite(value) || !r->system->model) return status;
+    const column_range *const of = columns_range(r->system, column);
+    if (of->kind != MOTUS_COLUMN_QUANTITY && of->kind != MOTUS_COLUMN_INVARIANT) return MOTUS_OK;
+    size_t number;
+    const model_definition *const d = system_definition(r->system, column, &number);
+    const double t = stepper_time(r->stepper);
+    if (!undefined_find(r->system->model, d->outputs, d->output_count, number, t, r->x, r->v, &why)) return MOTUS_OK;
+    fail(err, MOTUS_DIVERGED, "%s", why.says);
+    if (why.holds) hint(err, "let the end values hold: %s(…, hold)", why.holds);
+    if (err) err->time = why.time;
+    return MOTUS_DIVERGED;
 }
 
 motus_status motus_run_set_state(motus_run *r, double t, const double *x, const double *v, motus_error *err)

@@ -276,14 +276,9 @@ static bool undefined_start(judge *j)
     char name[MOTUS_NAME_MAX], limit[DECIMAL_MAX];
     if (e->t != e->begin || !s->model || !evidence_undefined_here(&j->e, &which)) return false;
     name_of(j, true, which, name);
-    const bool found = !system_located(s) && undefined_find(s->model, which, e->t, e->x, e->v, &u);
-    if (!found) {
-        error_text(j->cause, "its equation has no value there");
-    } else if (!u.divisor[0]) {
-        error_text(j->cause, "%s is %s there", u.term, u.infinite ? "infinite" : "not a number");
-    } else {
-        error_text(j->cause, "%s is %s there, since %s is 0", u.term, u.both ? "0/0" : "a division by 0", u.divisor);
-    }
+    const bool found = !system_located(s) &&
+                       undefined_find(s->model, s->model->accel, s->model->accel_count, which, e->t, e->x, e->v, &u);
+    error_text(j->cause, "%s", found ? u.says : "its equation has no value there");
     say(j, MOTUS_CAUSE_INFINITE, name);
     if (found && u.has_limit)
         hint(j->err, "write the value that it has there, `if(%s == 0, %s, %s)`", u.divisor, decimal(u.limit, limit),
@@ -337,10 +332,14 @@ static bool outside_table(judge *j)
     char name[MOTUS_NAME_MAX], text[DECIMAL_MAX];
     if (!s->model || !s->model->table_count) return false;
     if (!evidence_undefined_here(&j->e, &which) && !evidence_undefined(&j->e, &which, &at)) return false;
-    if (!undefined_find(s->model, which, at, e->other_x, e->other_v, &u) || !u.outside[0]) return false;
+    if (!undefined_find(s->model, s->model->accel, s->model->accel_count, which, at, e->other_x, e->other_v, &u) ||
+        !u.outside[0])
+        return false;
     if (!u.holds && !isnan(u.time) && at != e->t) {
         at = evidence_undefined_since(&j->e, which, at);
-        if (!undefined_find(s->model, which, at, e->other_x, e->other_v, &u) || !u.outside[0]) return false;
+        if (!undefined_find(s->model, s->model->accel, s->model->accel_count, which, at, e->other_x, e->other_v, &u) ||
+            !u.outside[0])
+            return false;
     }
     const double t = isnan(u.time) ? e->t : u.time;
     const motus_status status = j->err->status;
@@ -348,14 +347,11 @@ static bool outside_table(judge *j)
     j->err->time = t;
     j->err->cause = MOTUS_CAUSE_INFINITE;
     snprintf(j->err->variable, sizeof j->err->variable, "%s", name_of(j, true, which, name));
-    const char *const holds = u.holds ? "let the end values hold: interp(…, hold)" : "";
-    if (e->way * (t - e->begin) <= 0 && (!j->home || e->begin == s->start)) {
-        hint(j->err, "begin elsewhere%s%s", u.holds ? ", or " : "", holds);
-        return true;
-    }
-    if (!u.holds && propose_locating(j)) return true;
-    attempt(j, true, "until", text);
-    hint(j->err, "end the run there, `until = %s` of the definition%s%s", text, u.holds ? ", or " : "", holds);
+    const bool start = e->way * (t - e->begin) <= 0 && (!j->home || e->begin == s->start);
+    if (!start && !u.holds && propose_locating(j)) return true;
+    const double until = undefined_until(&u, t, e->begin);
+    if (!start && !u.points[0]) attempt(j, true, "until", decimal(until, text));
+    undefined_hint(&u, until, start, j->err);
     return true;
 }
 

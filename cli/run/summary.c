@@ -53,6 +53,13 @@ static const char *undecided_cell(const summary *s, double value)
 static motus_status final_cell(const summary *s, table *t, size_t column, double value, motus_error *err)
 {
     double error = NAN;
+    motus_error why = motus_default_error();
+    if (!isfinite(value) && motus_run_undefined(s->run, column, &why) == MOTUS_DIVERGED) {
+        char text[2 * MOTUS_TEXT_MAX + 16];
+        snprintf(text, sizeof text, "undefined: %s%s%s", why.message, why.hint[0] ? "; " : "", why.hint);
+        table_cell(t, text);
+        return MOTUS_OK;
+    }
     motus_status status = s->errors ? motus_run_errors(s->run, &column, 1, NULL, &error, err) : MOTUS_OK;
     const bool undecided = isinf(error) && isnan(s->estimate.significant_until) && !motus_run_accumulates(s->run)[0];
     const motus_run_statistics done = motus_run_now(s->run);

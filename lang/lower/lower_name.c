@@ -341,6 +341,8 @@ value lower_name(lowering *l, const tree *t)
     symbol s = symbols_find(l->model, t->name);
     if (s.state) return lower_state(l, t, s.state);
     if (s.definition) return lower_definition(l, t, s.definition);
+    /* an index or an argument of the line in which this constant stands */
+    if (!failed(l)) COMPLAIN(l, &t->at, "%s is fixed and cannot depend on %s", l->what, t->name);
     return wrong(l);
 }
 

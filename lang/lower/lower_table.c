@@ -106,6 +106,11 @@ static bool list_of(lowering *l, const tree *call, const tree *t, numbers *out)
     if (d && d->kind == DEFINED_PARAMETER && !resolve_definition(m, d)) return false;
     if (!d || d->kind != DEFINED_PARAMETER || !d->list || d->dims != 1) {
         COMPLAIN(l, &t->at, "%s takes a list here, and %s is none", call->name, quote(l, &t->at, text));
+        if (t->kind == TREE_NAME && (d = symbols_find(m, t->name).definition) && d->list)
+            HINT(l,
+                 d->dims == 1 ? "write %s: a table takes the whole list"
+                              : "%s has several indices: write each row as a list of its own",
+                 d->name);
         HINT(l, "write it as a line of its own: T = [0, 0.5, 2]");
         return false;
     }
@@ -182,6 +187,7 @@ value lower_table(lowering *l, const tree *t)
     of.kind = t->operation == CALL_SPLINE ? TABLE_SPLINE : TABLE_LINEAR;
     of.hold = hold;
     of.name = kept_text(l, t->at.text, t->item[1]->at.from, t->at.to - 1);
+    of.values = kept_text(l, t->at.text, values->at.from, values->at.to);
     const char *before = t->operation == CALL_SPLINE ? "spline(" : "interp(";
     if (!table_make(m, &rows, &rows.array)) return wrong(l);
     const node row = binary(l, OP_FIND, u, graph_table(g, rows.array));

@@ -4,6 +4,7 @@
 
 #include "lang/lower/lower.h"
 #include "lang/model/evaluate.h"
+#include "lang/model/undefined.h"
 #include "lang/model/vary_record.h"
 
 #include <math.h>
@@ -12,10 +13,18 @@
 
 static bool failed(const model *m) { return source_failed(&m->source); }
 
-static bool finite_values(model *m, const model_definition *d, const double *v, size_t count)
+/* nodes: those of the values, or NULL */
+static bool finite_values(model *m, const model_definition *d, const node *nodes, const double *v, size_t count)
 {
+    undefined_term u;
     for (size_t k = 0; k < count; k++)
         if (!isfinite(v[k])) {
+            if (nodes && undefined_of(m, &(output){.value = nodes[k]}, NULL, NAN, NULL, NULL, &u) && u.outside[0]) {
+                source_complain(&m->source, MOTUS_ARGUMENT, &d->statement->value->at, "%s has no value: %s", d->name,
+                                u.outside);
+                undefined_hint(&u, NAN, true, m->source.error);
+                return false;
+            }
             source_complain(&m->source, MOTUS_ARGUMENT, &d->statement->value->at, "%s is not a finite number", d->name);
             source_hint(&m->source, "look for a division by zero, or a root or logarithm of a negative number");
             return false;
@@ -28,7 +37,7 @@ static bool evaluate_numbers(model *m, const model_definition *d, const node *no
 {
     double *out = take(&m->arena->allocator, (size_t)n, sizeof *out); /* since the pool may move meanwhile */
     if (!out) return m->arena->failed = true, false;
-    const bool ok = evaluate_nodes(m, nodes, n, out) && finite_values(m, d, out, (size_t)n);
+    const bool ok = evaluate_nodes(m, nodes, n, out) && finite_values(m, d, nodes, out, (size_t)n);
     if (ok) memcpy(m->pool + first, out, (size_t)n * sizeof *out);
     give(&m->arena->allocator, out);
     return ok;
@@ -324,7 +333,7 @@ static bool resolve_family(model *m, model_definition *d)
     if (!map) evaluate_held_cells(m, &o, v.item, parts, d->array);
     for (int rank = 1; map && rank <= RANK_SET; rank++)
         if (!family_lines(m, d, rank, map, hull)) return false;
-    return finite_values(m, d, m->pool + base, hull * (size_t)parts);
+    return finite_values(m, d, NULL, m->pool + base, hull * (size_t)parts);
 }
 
 static bool circle(model *m, const model_definition *d)

@@ -25,7 +25,8 @@ typedef struct table {
     bool hold;             /* before and beyond the points the end values hold; else the values are not numbers */
     uint16_t list, points; /* the values, and the points where they are: arrays of the pool with one index */
     uint16_t array;        /* the table itself */
-    const char *name;      /* for messages: "T", "T, A"; equal tables need not have equal names */
+    const char *name;      /* its arguments as text: "T", "T, A"; equal tables need not have equal names */
+    const char *values;    /* the text of `list`, for messages */
 } table;
 
 /* Finds or makes a table. False: no memory. */

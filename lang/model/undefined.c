@@ -29,6 +29,7 @@ typedef struct place {
     const graph_walk *walk;
     double t;
     const double *x, *v;
+    const int64_t *index; /* of the loops of the formula */
 } place;
 
 /* A way to the state, from the distance `by`. Numbers approach at rates of their own; on a bent way some go as the
@@ -53,10 +54,11 @@ static twofold leaf(const place *p, const graph_node *n, const way *w)
     if (n->op == OP_CONST) return twofold_of(n->value);
     if (n->op == OP_PARAM) return twofold_of(m->pool[n->a]);
     if (n->op == OP_TIME) return beside(p->t, w, 0);
+    if (n->op == OP_INDEX) return twofold_of((double)p->index[n->level]);
     if (n->op == OP_TABLE) return twofold_of(operation_table(m->pool + m->arrays[n->a].base));
     if (n->op != OP_LOAD) return twofold_of(NAN);
     const reference *ref = &m->graph->references[n->a];
-    const size_t at = graph_element(m->arrays, ref, NULL, m->ints);
+    const size_t at = graph_element(m->arrays, ref, p->index, m->ints);
     switch (m->arrays[ref->array].space) {
     case SPACE_X: return beside(p->x[at], w, 1 + at);
     case SPACE_V: return beside(p->v[at], w, 1 + m->nx + at);
@@ -201,10 +203,11 @@ static void outside(model *m, const graph_node *entry, double now, const twofold
 {
     const graph *g = m->graph;
     const table *const t = table_at(m, entry->b);
-    char u[UNDEFINED_TEXT / 2], end[DECIMAL_MAX];
+    char u[UNDEFINED_TEXT / 4], end[DECIMAL_MAX], other[DECIMAL_MAX];
     if (!t) return;
     const array *const points = &m->arrays[t->points];
     const int64_t first = points->over->first[0], last = points->over->last[0];
+    const double *const number = m->pool + points->base;
     if (t->kind == TABLE_LIST) {
         if (!(graph_deps(g, entry->a) & DEP_STATE)) out->time = now;
         snprintf(out->outside, sizeof out->outside, "%s has the entries %lld to %lld, and %g is asked for", t->name,
@@ -218,12 +221,29 @@ static void outside(model *m, const graph_node *entry, double now, const twofold
     }
     if (graph_at(g, row)->op != OP_FIND) return;
     const bool before = value[g->place[row]].high == 0;
-    model_print(m, graph_at(g, row)->a, u, sizeof u);
-    const double point = m->pool[points->base + (before ? 0 : (size_t)(last - first))];
-    if (graph_at(g, graph_at(g, row)->a)->op == OP_TIME) out->time = point;
-    snprintf(out->outside, sizeof out->outside, "%s goes %s the %s point of the table %s, %s", u,
-             before ? "before" : "beyond", before ? "first" : "last", t->name, decimal(point, end));
-    out->holds = true;
+    const node argument = graph_at(g, row)->a;
+    const bool moves = graph_deps(g, argument) & (DEP_TIME | DEP_STATE);
+    model_print(m, argument, u, sizeof u);
+    const double point = number[before ? 0 : last - first];
+    if (graph_at(g, argument)->op == OP_TIME) out->time = point;
+    snprintf(out->outside, sizeof out->outside, "%s%s %s %s %s, the %s point of the table %s",
+             moves ? "" : "the argument ", u, moves ? "goes" : "is", before ? "before" : "beyond", decimal(point, end),
+             before ? "first" : "last", t->values);
+    if (!moves)
+        snprintf(out->points, sizeof out->points, "%s to %s", decimal(number[0], other),
+                 decimal(number[last - first], end));
+    out->holds = t->kind == TABLE_SPLINE ? "spline" : "interp";
+}
+
+/* Returns whether an `if` chooses a node directly, as it does for what an event keeps before the event. */
+static bool chosen(const place *p, size_t at)
+{
+    bool found = false;
+    for (size_t k = at; k < p->walk->count && !found; k++) {
+        const graph_node *n = graph_at(p->model->graph, p->walk->nodes[k]);
+        found = n->op == OP_SELECT && (n->b == p->walk->nodes[at] || n->c == p->walk->nodes[at]);
+    }
+    return found;
 }
 
 /* Describes an undefined term. A limit is given of a quotient only if it depends on no number that its divisor does not
@@ -241,6 +261,17 @@ static void describe(model *m, const place *p, size_t at, twofold *value, bool *
     model_print(m, p->walk->nodes[at], out->term, sizeof out->term);
     if (n.op == OP_ENTRY) outside(m, &n, p->t, value, out);
     if (divides) model_print(m, n.b, out->divisor, sizeof out->divisor);
+    if (n.op == OP_CONST && m->keeps && chosen(p, at))
+        snprintf(out->says, sizeof out->says, "the event that it tells of has not happened");
+    else if (out->outside[0])
+        snprintf(out->says, sizeof out->says, "%s", out->outside);
+    else if (n.op == OP_CONST)
+        snprintf(out->says, sizeof out->says, "a constant of it is not a finite number");
+    else if (divides)
+        snprintf(out->says, sizeof out->says, "%s is %s there, since %s is 0", out->term,
+                 out->both ? "0/0" : "a division by 0", out->divisor);
+    else
+        snprintf(out->says, sizeof out->says, "%s is %s there", out->term, out->infinite ? "infinite" : "not a number");
 }
 
 /* Returns whether all nodes can be evaluated singly. */
@@ -248,26 +279,28 @@ static bool single(const graph *g, const graph_walk *w)
 {
     bool all = w->count <= NODES_MOST;
     for (size_t k = 0; k < w->count && all; k++)
-        all = !(graph_deps(g, w->nodes[k]) & (DEP_LEVELS | DEP_D)) && graph_at(g, w->nodes[k])->op != OP_SUM;
+        all = !(graph_deps(g, w->nodes[k]) & DEP_D) && graph_at(g, w->nodes[k])->op != OP_SUM;
     return all;
 }
 
-static const output *formula_of(const model *m, size_t which)
+/* Finds the indices with which an output becomes element `which`; those before `level` are set. */
+static bool cell_of(const model *m, const output *o, size_t which, int level, int64_t *index)
 {
-    for (size_t k = 0; k < m->accel_count; k++) {
-        const output *o = &m->accel[k];
-        if (o->loops == 0 && graph_element(m->arrays, &o->to, NULL, m->ints) == which) return o;
-    }
-    return NULL;
+    if (level == o->loops) return graph_element(m->arrays, &o->to, index, m->ints) == which;
+    const int64_t first = graph_subscript(&o->loop[level].first, index, m->ints),
+                  last = graph_subscript(&o->loop[level].last, index, m->ints);
+    for (index[level] = first; index[level] <= last; index[level]++)
+        if (cell_of(m, o, which, level + 1, index)) return true;
+    return false;
 }
 
-bool undefined_find(model *m, size_t which, double t, const double *x, const double *v, undefined_term *out)
+bool undefined_of(model *m, const output *o, const int64_t *index, double t, const double *x, const double *v,
+                  undefined_term *out)
 {
-    const output *o = formula_of(m, which);
     graph_walk w;
     *out = (undefined_term){.time = NAN};
-    if (!o || !graph_order(m->graph, &o->value, 1, 0, false, &w)) return false;
-    const place p = {m, &w, t, x, v};
+    if (!graph_order(m->graph, &o->value, 1, 0, false, &w)) return false;
+    const place p = {m, &w, t, x, v, index};
     twofold *const value = take(&m->arena->allocator, w.count, sizeof *value);
     bool *const taken = take(&m->arena->allocator, w.count, sizeof *taken);
     bool found = value && taken && single(m->graph, &w);
@@ -282,4 +315,33 @@ bool undefined_find(model *m, size_t which, double t, const double *x, const dou
     give(&m->arena->allocator, value);
     give(&m->arena->allocator, w.nodes);
     return found;
+}
+
+bool undefined_find(model *m, const output *outputs, size_t count, size_t which, double t, const double *x,
+                    const double *v, undefined_term *out)
+{
+    int64_t index[MAX_LEVELS] = {0};
+    for (const output *o = outputs; o < outputs + count; o++)
+        if (cell_of(m, o, which, 0, index)) return undefined_of(m, o, index, t, x, v, out);
+    return false;
+}
+
+double undefined_until(const undefined_term *u, double last, double start)
+{
+    char text[DECIMAL_MAX];
+    const double off = isnan(u->time) ? 1e-9 * (last - start) : 0;
+    return off == 0 ? last : decimal_near(last - 2 * off, fabs(off), text);
+}
+
+void undefined_hint(const undefined_term *u, double until, bool start, motus_error *err)
+{
+    char text[DECIMAL_MAX], holds[64] = "";
+    if (u->holds) snprintf(holds, sizeof holds, "let the end values hold: %s(…, hold)", u->holds);
+    if (u->points[0])
+        hint(err, "take an argument from %s, or %s", u->points, holds);
+    else if (start)
+        hint(err, "begin %s%s", u->holds ? "within the points of the table, or " : "elsewhere", holds);
+    else
+        hint(err, "end the run there, `until = %s` of the definition%s%s", decimal(until, text),
+             u->holds ? ", or " : "", holds);
 }
