@@ -288,12 +288,54 @@ refuses "a cell that is empty" 2 "h.csv:5: nothing is not a finite number" "$mot
 sed -i 5d "$place/h.csv"
 refuses "a row that is too short" 2 "h.csv:5: the line has too few columns" "$motus" run $table --set "A=@$place/h.csv:a"
 sed -i 5d "$place/h.csv"
-refuses "a row that is too long" 2 "h.csv:5: the line has more columns than the first line has names" "$motus" run $table --set "A=@$place/h.csv:a"
+refuses "a row that is too long" 2 "h.csv:5: the line has more columns than the line of their names" "$motus" run $table --set "A=@$place/h.csv:a"
 printf '0,NA\n1,2\n2,3\n' >"$place/j.csv"
 refuses "a first row with a cell that is no number is no head" 2 "j.csv:1: NA is not a finite number" "$motus" run $table --set "A=@$place/j.csv:2"
+# Files of programs and devices: a list of 0.5, 1.5, -1, whatever stands before and between.
+while IFS='|' read -r name column text; do
+    printf "$text" >"$place/k.csv"
+    from "$name" "@$place/a.csv:1" "@$place/k.csv:$column"
+done <<'FILES'
+a comment behind a row|2|0,0.5 # note\n1,1.5 #\n2,-1\n
+line ends of old computers|2|t,a\r0,0.5\r1,1.5\r2,-1\r
+a byte order mark, and a blank before the name| a|\xef\xbb\xbft,a\r\n0,0.5\r\n1,1.5\r\n2,-1\r\n
+the line with which Excel says the separator|1|sep=;\n0,5;1;2\n1,5;2;3\n-1;3;4\n
+separators at the ends of rows|a|t,a\n0,0.5,\n1,1.5,\n2,-1,\n
+lines before the names, and units behind them|CH1|Model,MSO,1\nDate,2\n\nTIME,CH1\ns,Volt\n0,0.5\n1,1.5\n2,-1\n
+prose before the only column||Acceleration in g\n0.5\n1.5\n-1\n
+dates beside the numbers|2|2020-01-01 00:00,0.5\n2020-01-01 00:01,1.5\n2020-01-01 00:02,-1\n
+missing numbers elsewhere|2|NA,0.5\n1,1.5\n,-1\n
+exponents of FORTRAN|2|1 5d-1\n2 1.5D+00\n3 -1.\n
+numbers in rows of several, behind prose|*|RECORD\nImperial Valley, 5/19/1940, El Centro, 180\nIN G\nNPTS= 3, DT= .01 SEC,\n .5E+00 1.5\n -1.\n
+FILES
+while IFS='|' read -r name column text sentence; do
+    printf "$text" >"$place/k.csv"
+    refuses "$name" 2 "$sentence" "$motus" run $table --set "A=@$place/k.csv:$column"
+done <<'FILES'
+two columns of one name|a|t,a,a\n1,2,3\n|columns 2 and 3 have the name a
+column 0|0|t,a\n1,2.5\n|no column 0
+a column that is not there|99|t,a\n1,2.5\n|no column 99
+a name, but no names|u|1,2.5\n3,4\n|no column u
+a quote without an end in the names|2|t,"a\n1,2\n|k.csv:1: a quote has no end in this line
+a quote without an end|2|1,2\n"3,4\n|k.csv:2: a quote has no end in this line
+marks for thousands|1|1.234,5;2\n|k.csv:1: 1.234,5 is not a finite number
+no rows|1|# nothing\n|holds no values
+a number beyond the range|2|1;1e999\n|k.csv:1: 1e999 is not a finite number
+a missing number behind the names|a|a\nNA\n2\n|k.csv:2: NA is not a finite number
+two lines without numbers behind the names|a|a\nx\ny\n2\n|k.csv:3: y is not a finite number
+a line of the head that looks like a row|2|Length of the record,2500\n0,1\n1,2\n|k.csv:1: column 1 has a word, and a number in line 2
+decimal commas or columns, row by row|*|0,5\n1,5\n|a number with a decimal comma, or two columns
+FILES
 refuses "lists of different lengths" 2 "2 points, but 3 values" "$motus" run $table --set "A=@$place/a.csv:2"
 refuses "a file that is not there" 1 "cannot read" "$motus" run $table --set "A=@$place/none.csv:2"
 refuses "several columns and no name" 2 "has several columns" "$motus" run $table --set "A=@$place/a.csv"
+printf 'B = [1, 2, 3]\nK = [[1, 2], [3, 4]]\nx = B[1] - K[1, 2]\ny'"''"' = -B[2] y K[2, 1]\ny(0) = 1\ny'"'"'(0) = 0\n' >"$place/entry.motus"
+gives "--set of entries" 0 "$motus" run "$place/entry.motus" --json --until 1 --set "B[2]=1/2" --set "K[2, 1] = 5"
+sed 's/"seconds".*//' "$out" >"$place/lists"
+gives "... is --set of the lists" 0 "$motus" run "$place/entry.motus" --json --until 1 --set "B=[1, 1/2, 3]" --set "K=[[1, 2], [5, 4]]"
+that "... to the same bits" eval "sed 's/\"seconds\".*//' '$out' | cmp -s - '$place/lists'"
+refuses "an entry that is not there" 2 "B has no such entry" "$motus" run "$place/entry.motus" --set "B[4]=1"
+refuses "an entry with too few indices" 2 "an entry of K has more indices" "$motus" run "$place/entry.motus" --set "K[2]=1"
 gives "--set of components" 0 "$motus" run models/kepler.motus --json --set "r.x(0) = 5/4" --set "r'.y(0)=sqrt(2)/2" --until 7
 cp "$out" "$place/set"
 gives "... is --set of vectors" 0 "$motus" run models/kepler.motus --json --set "r(0) = (5/4, 0)" --set "r'(0) = (0, sqrt(2)/2)" --until 7

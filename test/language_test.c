@@ -455,7 +455,7 @@ static void rule_10_set_refused(void **unused)
         {"p=1 2", MOTUS_SYNTAX, "1*2"},
         {"x=3", MOTUS_ARGUMENT, "x(0)"},
         {"u[0]=3", MOTUS_ARGUMENT, "u[…](0)"},
-        {"m[2]=3", MOTUS_ARGUMENT, "[1, 2, …]"},
+        {"m[9]=3", MOTUS_ARGUMENT, "entries have the numbers 1 to"},
         {"x[1](0)=3", MOTUS_SHAPE, "family"},
         {"u(0)=3", MOTUS_SHAPE, "u[i]"},
         {"y(0)=1", MOTUS_NAME, "y"},

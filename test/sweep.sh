@@ -701,7 +701,7 @@ refuses "values from nowhere" 1 "cannot read nowhere.csv" "$motus" sweep osc.mot
 refuses "values from a folder" 1 "cannot read small" "$motus" sweep osc.motus --vary F=@small:1 -o nothing.csv
 bad "values without a column" "values.csv has several columns" osc.motus --vary F=@values.csv
 bad "an unknown column" "values.csv has no column c" osc.motus --vary F=@values.csv:c
-bad "a column too far" "the line has too few columns" osc.motus --vary F=@values.csv:7
+bad "a column too far" "values.csv has no column 7" osc.motus --vary F=@values.csv:7
 bad "a column of words" "values.csv:3: x is not a finite number" osc.motus --vary F=@values.csv:3
 printf 'F\n1\nnan\n' >nan.csv
 bad "a value that is none" "nan.csv:3: nan is not a finite number" osc.motus --vary F=@nan.csv:F

@@ -12,8 +12,8 @@ typedef struct column {
     uint64_t count;
 } column;
 
-/* Reads a column. `name` is its name in the first line, or its number from 1, or NULL for the only one. Lines that
- * begin with # or %, and empty ones, do not count. */
+/* Reads a column. `name` is its name in a line before the first row, or its number from 1, NULL for the only one, or
+ * "*": all columns, row by row. Lines that begin with # or %, and empty ones, do not count. */
 motus_status column_read(const char *path, const char *name, column *, motus_error *);
 /* Reads the column that a text PATH:NAME or PATH names; the caller frees *path. */
 motus_status column_of(const char *place, char **path, column *, motus_error *);

@@ -5,6 +5,7 @@
 #include "base/near.h"
 #include "lang/model/symbols.h"
 
+#include <math.h>
 #include <string.h>
 
 static void twice(model *m, const statement *s, span earlier)
@@ -176,6 +177,41 @@ static bool refuse_setting(model *m, uint32_t text)
     return false;
 }
 
+/* Copies a list, and replaces the entry with the indices of a setting from number `d` on. NULL: there is none, or no
+ * memory. */
+static tree *with_entry(model *m, const statement *one, const tree *list, uint16_t d)
+{
+    const tree *const index = one->index[d];
+    const bool whole = index->kind == TREE_NUMBER && index->number >= 1 && floor(index->number) == index->number;
+    if (list->kind != TREE_LIST || !whole || index->number > list->count) {
+        source_complain(&m->source, MOTUS_ARGUMENT, &index->at, "%s has no such entry", one->name);
+        source_hint(&m->source, list->kind == TREE_LIST ? "entries have the numbers 1 to %u" : "it has fewer indices",
+                    list->count);
+        return NULL;
+    }
+    tree *const copy = arena_room(m->arena, sizeof *copy);
+    tree **const item = arena_room(m->arena, list->count * sizeof *item);
+    if (!copy || !item) return NULL;
+    memcpy(item, list->item, list->count * sizeof *item);
+    *copy = *list;
+    copy->item = item;
+    tree **const at = &item[(size_t)index->number - 1];
+    if (d + 1 == one->index_count && (*at)->kind == TREE_LIST) {
+        source_complain(&m->source, MOTUS_ARGUMENT, &one->name_at, "an entry of %s has more indices", one->name);
+        return NULL;
+    }
+    *at = d + 1 < one->index_count ? with_entry(m, one, *at, (uint16_t)(d + 1)) : one->value;
+    return *at ? copy : NULL;
+}
+
+/* Keeps the value of a statement that a setting is to replace. */
+static void keep_replaced(model *m, statement *old)
+{
+    replaced *own = arena_take(m->arena, sizeof *own);
+    *own = old->replaced ? *old->replaced : (replaced){old->value, old->at};
+    old->replaced = own;
+}
+
 /* Replaces statements of the model by name=expression of `set`, a statement in a text of its own. */
 static bool replace(model *m, uint32_t text)
 {
@@ -216,8 +252,8 @@ static bool replace(model *m, uint32_t text)
         same = same && !cell;
         if (same && found++) continue; /* the first is replaced, the others are removed */
         if (same) {
-            replaced *own = arena_take(m->arena, sizeof *own);
-            *own = old->replaced ? *old->replaced : (replaced){old->value, old->at};
+            keep_replaced(m, old);
+            replaced *const own = old->replaced;
             *old = *one;
             old->replaced = own;
         }
@@ -235,13 +271,17 @@ static bool replace(model *m, uint32_t text)
         return true;
     }
     for (uint32_t i = 0; i < m->statements.count; i++) {
-        const statement *old = &m->statements.item[i];
+        statement *old = &m->statements.item[i];
         if (old->kind != STATEMENT_DEFINITION || strcmp(old->name, one->name)) continue;
+        if (cell && old->value->kind == TREE_LIST) {
+            tree *const list = with_entry(m, one, old->value, 0);
+            if (!list) return false;
+            keep_replaced(m, old);
+            old->value = list;
+            return true;
+        }
         source_complain(s, MOTUS_ARGUMENT, &one->name_at, "%s can only be set as a whole", one->name);
-        if (old->value->kind == TREE_LIST)
-            source_hint(s, "write %s = [1, 2, …]", one->name);
-        else
-            source_hint(s, "write it as the model does, in line %d", source_line(s, &old->at));
+        source_hint(s, "write it as the model does, in line %d", source_line(s, &old->at));
         return false;
     }
     source_complain(s, MOTUS_NAME, &one->name_at, "the model has no parameter %s", one->name);
