@@ -586,13 +586,25 @@ static motus_status adaptive_step(events *e, stepper *s, double until, int64_t m
     return status;
 }
 
-/* Takes a fixed step to the next time of the grid, in short steps that end on actions and begin there. A step that is
- * cancelled on its way is `broken`. */
-static motus_status grid_step(events *e, stepper *s, double until, stepper_stop *why, motus_error *err)
+/* Returns the next time of the grid. */
+static double grid_end(const events *e) { return e->grid_start + (double)(e->steps + 1) * e->grid_step; }
+
+/* Returns how many fixed steps, at most `most`, may be watched: the last ones to `until` are taken one by one, and a
+ * witness is shown every fixed step. */
+static int64_t grid_room(const events *e, double until, int64_t most)
 {
-    const double number = (double)(e->steps + 1), grid = e->grid_start + number * e->grid_step;
+    const double left = (until - e->left.t) / e->grid_step - 2;
+    if (e->broken || e->witness || !(left > 1)) return 1;
+    return left < (double)most ? (int64_t)left : most;
+}
+
+/* Takes a fixed step to the next time of the grid, in short steps that end on actions and begin there. A step that is
+ * cancelled on its way is `broken`. Takes up to `most` steps while bounds prove that nothing happens. */
+static motus_status grid_step(events *e, stepper *s, double until, int64_t most, stepper_stop *why, motus_error *err)
+{
+    const double grid = grid_end(e);
     const bool last = e->way * (until - grid) <= 8 * events_ulp(until);
-    const double end = last ? until : grid;
+    double end = last ? until : grid;
     /* a run to a later end would take another step here, or find only in its next step what happens at this end */
     if (last && e->may_save && !e->broken && !events_save_here(e, s)) return events_no_memory(err);
     for (;;) {
@@ -603,8 +615,9 @@ static motus_status grid_step(events *e, stepper *s, double until, stepper_stop 
             e->broken = true;
             status = jump(e, s, &e->left, (stop - e->left.t) - e->left.lost, err);
         }
-        if (!status) status = piece(e, s, e->broken ? stop : until, 1, &assigned, why, err);
+        if (!status) status = piece(e, s, e->broken ? stop : until, grid_room(e, until, most), &assigned, why, err);
         if (status || *why == STOP_EVENT) return status;
+        if (!last) end = grid_end(e); /* watched steps have moved it */
         const double left = assigned ? (end - e->here.t) - e->here.lost : (end - e->right.t) - e->right.lost;
         const bool near = fabs(left) <= 8 * events_ulp(end);
         if (!e->broken && !assigned && near) break; /* the usual step */
@@ -633,7 +646,7 @@ motus_status events_go(events *e, stepper *s, double until, int64_t most, steppe
     e->pace = INFINITY;
     events_kept_forget(e);
     motus_status status =
-        row_adaptive(&e->method) ? adaptive_step(e, s, until, most, why, err) : grid_step(e, s, until, why, err);
+        row_adaptive(&e->method) ? adaptive_step(e, s, until, most, why, err) : grid_step(e, s, until, most, why, err);
     e->along = NULL;
     if (!status) e->steps++;
     if (!status && e->cancelled) status = MOTUS_CANCELLED;
@@ -655,6 +668,7 @@ bool events_accumulated(const events *e, events_limit *out)
 }
 
 void events_jog(events *e, events_jogger jog) { e->jog = jog; }
+void events_doubted(events *e, bool doubted) { e->doubted = doubted; }
 
 void events_witnessed(events *e, events_witness witness, void *ctx) { e->witness = witness, e->witness_ctx = ctx; }
 

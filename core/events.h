@@ -30,9 +30,10 @@ typedef struct event {
     int64_t count; /* events of this rule so far, with this one */
     double t;
     double lasting; /* events_lasting at t */
-    double doubt;   /* how far off the time may be because the function is flat there; 0: it is not flat */
-    bool touched;   /* the function touched 0 and went back */
-    bool changed;   /* the rule assigns, so there is a state after the event too */
+    double
+        doubt; /* how far off the time may be because the function is flat there; 0: it is not flat, or nobody asks */
+    bool touched; /* the function touched 0 and went back */
+    bool changed; /* the rule assigns, so there is a state after the event too */
 } event;
 
 /* What ended the run before its time. */
@@ -87,6 +88,8 @@ bool events_partway(const events *);
  * numbers: a switch of the force changed its side, and the motion goes on. */
 typedef void (*events_jogger)(double *y, size_t count, uint32_t salt, bool switched);
 void events_jog(events *, events_jogger);
+/* Says whether rows are to have their `doubt`, which bars of error need; it costs many evaluations for every event. */
+void events_doubted(events *, bool);
 /* A witness is shown every step that is not watched, with its mark. until: the time up to which the step counts: that
  * of an action, or the step's end. True: the advance ends here, with STOP_HALT. */
 typedef bool (*events_witness)(void *ctx, stepper *, double until);

@@ -3,12 +3,18 @@
 #include "core/events_parts.h"
 
 #include <math.h>
+#include <stdint.h>
 #include <string.h>
 
 double events_ulp(double t)
 {
-    t = fabs(t);
-    return nextafter(t, INFINITY) - t;
+    const double size = fabs(t);
+    double above;
+    uint64_t bits;
+    memcpy(&bits, &size, sizeof bits);
+    bits++; /* of the next larger number */
+    memcpy(&above, &bits, sizeof above);
+    return above - size;
 }
 
 motus_status events_refuse(const events *e, const char *which, double t, int answer, motus_error *err)

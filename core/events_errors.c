@@ -177,13 +177,14 @@ motus_status events_doubt(events *e, size_t f, double h, bool touches, double *d
 {
     double bound;
     *doubt = 0;
-    if (!e->marked) return MOTUS_OK;
+    if (!e->marked || !(e->doubted || e->jog)) return MOTUS_OK;
     if (!touches && !may_be_flat(e, f)) { /* rounding of the state, where it is coarser than that of the time */
         const double rounded = e->here.bound[f] / fabs(e->here.rate[f]);
         if (isfinite(rounded)) e->blurred = fmin(rounded, fabs(e->span));
         if (e->blurred > COARSE * events_ulp(e->here.t)) *doubt = e->blurred;
         return MOTUS_OK;
     }
+    if (!e->doubted) return MOTUS_OK;
     const motus_status status =
         touches ? events_slope_error_of(e, f, h, &bound, err) : events_error_of(e, f, h, &bound, err);
     if (status) return status;

@@ -632,6 +632,23 @@ static bool monotone(events *e, size_t f, motus_status *status, motus_error *err
     return true;
 }
 
+/* Tells whether a function that stands at 0 leaves it to the side on which it goes on, and stays there: it is monotone
+ * on the step, and ends it far beyond what rounding hides. */
+static bool leaves_alone(events *e, size_t f, motus_status *status, motus_error *err)
+{
+    enum { FAR = 1 << 10, LONG = 1 << 20 };
+    const double way = e->right.g[f] - e->left.g[f];
+    const int after = (way > 0) - (way < 0);
+    double hidden;
+    if (!after || e->side[f] != after || (e->heads[f] && e->heads[f] != after)) return false;
+    if (e->off || e->rules.rule[e->rule_of[f]].internal || !(e->right.g[f] * after > 0)) return false;
+    if (!(fabs(e->span) > LONG * events_ulp(e->right.t))) return false;
+    *status = judge_dense(e, f, fabs(way), &hidden, err);
+    if (*status || !(fabs(way) > FAR * hidden)) return false;
+    e->stands[f] = 0, e->heads[f] = 0;
+    return true;
+}
+
 /* Marks the functions for which dense output must be searched; most steps need none. */
 static motus_status choose(events *e, stepper *s, bool *any, motus_error *err)
 {
@@ -645,7 +662,7 @@ static motus_status choose(events *e, stepper *s, bool *any, motus_error *err)
     for (size_t f = 0; f < n; f++) {
         const bool free = known && !e->stands[f] && !e->open[f];
         e->look[f] = !(free && out[f] > 0);
-        rates |= once && free && e->look[f];
+        rates |= known && !e->open[f] && (e->stands[f] ? e->side[f] : once && e->look[f]);
         *any |= e->look[f];
     }
     if (!*any) return MOTUS_OK;
@@ -654,7 +671,11 @@ static motus_status choose(events *e, stepper *s, bool *any, motus_error *err)
     e->rules.least_rates(e->rules.ctx, e->next.x, e->next.v, e->width, e->width + e->problem.nx, out);
     *any = false;
     for (size_t f = 0; f < n && !status; f++) {
-        if (e->look[f] && !e->stands[f] && !e->open[f] && out[f] > 0) e->look[f] = !monotone(e, f, &status, err);
+        const bool moves = e->look[f] && !e->open[f] && out[f] > 0;
+        if (moves && e->stands[f])
+            e->look[f] = !leaves_alone(e, f, &status, err);
+        else if (moves && once)
+            e->look[f] = !monotone(e, f, &status, err);
         *any |= e->look[f];
     }
     return status;

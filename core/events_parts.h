@@ -139,6 +139,7 @@ struct events {
     bool hidden;     /* the step is so long that rounding hides how a function leaves 0 at its start */
     uint8_t *zero;   /* for each function: it is 0 at `here` */
     uint8_t *level;  /* for each function: it stays at 0 after this instant, because its slope is 0 but for rounding */
+    bool doubted;    /* rows are to have their doubt */
     double doubt;    /* an error bound of the time of this instant: events_doubt */
     double blurred;  /* the time within which rounding of the state hides the root of a function that is not flat */
     bool awaits;     /* a switch of the force is to turn in this instant */

@@ -166,7 +166,10 @@ typedef struct stepper_left {
     const double *x, *v; /* NULL: no step was begun */
     bool shown;          /* the step was shown to `quiet` */
 } stepper_left;
-/* Tells whether stepper_watch can be called: the row can be watched (row_watched) and the leg may take steps. */
+/* Tells whether stepper_watch can be called: the row can be watched (row_watched), or its fixed steps can by their ends
+ * and are those of a small system, whose single steps a compiled model does not take faster; and the leg may take
+ * steps. */
+enum { STEPPER_WATCHED_MOST = 16 };
 bool stepper_can_watch(const stepper *);
 /* Tells whether the next steps have bounds on their accelerations: lanes watch fixed steps too, after the first step of
  * a leg. */

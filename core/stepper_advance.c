@@ -324,20 +324,22 @@ motus_status stepper_advance(stepper *s, stepper_limit limit, stepper_stop *why,
 static bool show(watch *w)
 {
     const stepper *s = w->ctx;
-    return s->watcher->quiet(s->watcher->ctx, &(stepper_shown){watch_span(w), w->t, w->to_t, w->from_x, w->from_v,
-                                                               w->to_x, w->to_v, w->most});
+    const double span = s->work.carried ? watch_span(w) : s->work.h;
+    return s->watcher->quiet(s->watcher->ctx,
+                             &(stepper_shown){span, w->t, w->to_t, w->from_x, w->from_v, w->to_x, w->to_v, w->most});
 }
 
 /* Takes the memory for the ends of watched steps. False: there is none. */
 static bool watch_room(stepper *s, const stepper_watcher *by)
 {
     const size_t nx = s->work.nx, nv = s->work.nv;
-    if (!s->watched) s->watched = take(&s->allocator, 2 * nx + 3 * nv, sizeof *s->watched);
+    if (!s->watched) s->watched = take(&s->allocator, 2 * nx + 5 * nv, sizeof *s->watched);
     if (!s->watched) return false;
     watch *to = &s->watch;
     to->from_x = s->watched, to->from_v = to->from_x + nx;
     to->to_x = to->from_v + nv, to->to_v = to->to_x + nx;
     to->most = to->to_v + nv;
+    to->from_a = to->most + nv, to->to_a = to->from_a + nv;
     to->largest_x = by->largest, to->largest_v = by->largest + nx;
     to->middle = by->middle, to->width = by->width;
     to->least = by->least, to->functions = by->functions;
@@ -366,13 +368,14 @@ static motus_status mark_watched(stepper *s, motus_error *err)
 
 bool stepper_can_watch(const stepper *s)
 {
-    return row_watched(&s->method) && !s->problem.refresh && !s->arrived && room_in_leg(s) > 0;
+    const bool fixed = row_bounded_by_ends(&s->method) && s->work.nv <= STEPPER_WATCHED_MOST && !s->shortened;
+    return (row_watched(&s->method) || fixed) && !s->problem.refresh && !s->arrived && room_in_leg(s) > 0;
 }
 
 bool stepper_bounded(const stepper *s)
 {
-    const bool goes_on = row_bounded_by_ends(&s->method) && !s->problem.refresh && !s->arrived && !s->shortened;
-    return stepper_can_watch(s) || (goes_on && s->work.n > 0);
+    if (!row_bounded_by_ends(&s->method)) return stepper_can_watch(s);
+    return !s->problem.refresh && !s->arrived && !s->shortened && s->work.n > 0;
 }
 
 motus_status stepper_watch(stepper *s, stepper_limit limit, const stepper_watcher *by, stepper_left *left,
@@ -384,7 +387,7 @@ motus_status stepper_watch(stepper *s, stepper_limit limit, const stepper_watche
     if (!stepper_ends(s) || !watch_room(s, by)) return fail(err, MOTUS_MEMORY, "out of memory for dense output");
     if (limit.steps > room) limit.steps = room; /* the next step reports that there is no more room */
     s->watcher = by;
-    w->met = false, w->n = -1;
+    w->met = w->known = false, w->n = -1;
     s->watching = true;
     const motus_status status = stepper_advance(s, limit, why, err);
     s->watching = false;
@@ -394,6 +397,7 @@ motus_status stepper_watch(stepper *s, stepper_limit limit, const stepper_watche
     motus_status marked = MOTUS_OK;
     if (earlier) marked = stepper_sync(s, w->from_x, w->from_v, NULL, NULL);
     if (earlier) w->n = stepper_steps(s), w->t = stepper_time(s), w->lost = stepper_lost(s);
+    if (!earlier && !s->work.carried) w->lost = stepper_lost_at(s, w->n);
     *left = (stepper_left){w->n - before, w->t, w->lost, w->from_x, w->from_v, w->shown && !earlier};
     if (!marked) marked = mark_watched(s, status ? NULL : err);
     return status ? status : marked;

@@ -51,6 +51,8 @@ struct stepper {
 
 /* stepper_state.c. Writes and returns the name of number k of x or v. */
 const char *stepper_name(const stepper *, bool in_v, size_t k, char out[MOTUS_NAME_MAX]);
+/* Tells what the rounding of the time of a step of the leg has left out, with fixed steps. */
+double stepper_lost_at(const stepper *, int64_t step);
 /* Returns the status, and writes the message, for a STEP_ status at time t. */
 motus_status stepper_report(const stepper *, int bad, double t, motus_error *);
 /* Tells whether the force has no finite value at the present state, before the first step; then this becomes the

@@ -8,10 +8,14 @@
 double stepper_time(const stepper *s) { return s->arrived ? s->until : time_now(&s->work); }
 double stepper_lost(const stepper *s)
 {
-    const work *w = &s->work;
     if (s->arrived) return 0;
-    if (w->carried) return w->lost;
-    const double n = (double)w->n, t = time_now(w), product = n * w->h, rest = fma(n, w->h, -product);
+    return s->work.carried ? s->work.lost : stepper_lost_at(s, s->work.n);
+}
+
+double stepper_lost_at(const stepper *s, int64_t step)
+{
+    const work *w = &s->work;
+    const double n = (double)step, t = TIME_FIXED(w, n, 0), product = n * w->h, rest = fma(n, w->h, -product);
     const double big = fabs(w->t0) > fabs(product) ? w->t0 : product, small = big == product ? w->t0 : product;
     return ((big - t) + small) + rest;
 }

@@ -20,7 +20,7 @@
 #include "core/family.h"
 #include "step/plan.h"
 #include "step/advance.h"
+#include "step/observe.h"
 #include "step/watch.h"
 #include "step/loop.h"
-#include "step/observe.h"
 #include "step/branch.h"

@@ -160,9 +160,10 @@ static bool write_text(compiled *c, const chosen *chosen, emit *e)
     if (expands && !c->series) c->series = expansion_program(m->arena, m->graph, m->accel, m->accel_count);
     if (expands && m->driven && !c->boundary_series)
         c->boundary_series = expansion_program(m->arena, m->graph, m->boundary, m->boundary_count);
-    const bool bounded = row_watched(chosen) && least_bounded(m);
-    const bool bounds = bounded && (chosen->written || !compose_small(m)); /* the interpreter's do for a first text */
-    e->longer = bounded && compose_small(m);
+    const bool bounded = compose_watched(m, chosen) && least_bounded(m),
+               longer = row_adaptive(chosen) && compose_small(m);
+    const bool bounds = bounded && (chosen->written || !longer); /* the interpreter's do for a first text */
+    e->longer = bounded && longer;
     if (bounds && !c->least) {
         size_t functions;
         const output *least = least_sizes(m, &functions);

@@ -86,8 +86,15 @@ bool compose_bounds_are_structure(const model *m)
     return single;
 }
 
+bool compose_watched(const model *m, const chosen *c)
+{
+    if (row_watched(c)) return m->rule_count || m->modes || compose_small(m);
+    return row_bounded_by_ends(c) && m->rule_count && compose_small(m);
+}
+
 /* Adds the text that asks after every step whether an event may have happened in it, if rules may be followed. A small
- * model has it without rules too, so that the object which the cache has of it serves the model with a section. */
+ * model has it without rules too if steps adapt, so that the object which the cache has of it serves the model with a
+ * section. */
 static void add_watch(emit_text *t, const composition *c)
 {
     const model *m = c->model;
@@ -96,7 +103,7 @@ static void add_watch(emit_text *t, const composition *c)
         if (c->bounds) add_text(t, "step/swing.h"), add_text(t, "step/box.h");
         return;
     }
-    if (!row_watched(c->chosen) || (!m->rule_count && !m->modes && !compose_small(m))) {
+    if (!compose_watched(m, c->chosen)) {
         emit_add(t, "#define WATCHES(w) false\n#define watch_begin(w) ((void)0)\n#define watch_ends(w) false\n");
         return;
     }
@@ -106,6 +113,7 @@ static void add_watch(emit_text *t, const composition *c)
         add_text(t, "step/box.h");
         add_text(t, "machine/text/watched.h");
     }
+    add_text(t, "step/observe.h");
     add_text(t, "step/watch.h");
 }
 
@@ -222,8 +230,10 @@ static bool add_facts(emit *e, const composition *c, bool structure)
     emit_add(t, "#define MOMENTS %d\n#define ARRAYS %zu\n#define SMALL %d\n#define NUMBERS %zu\n\n", m.count, arrays,
              c->width || small, structure ? w.nv : 0);
     if (small && !c->width) {
-        emit_add(t, "#define FIRST(w) false\n#define BEGINS 0\n#define KNOWN(w) (ROW_adaptive && (w)->fresh)\n#define "
-                    "CHECKS(w) false\n");
+        emit_add(t,
+                 "#define FIRST(w) false\n#define BEGINS 0\n#define KNOWN(w) (%d && (w)->fresh)\n#define "
+                 "CHECKS(w) false\n",
+                 r->adaptive || compose_watched(c->model, c->chosen));
         add_places(t, w);
     }
     const bool many_solves = w.solves && !solve_text_single(&w);

@@ -36,6 +36,8 @@ typedef struct composition {
 
 /* Tells whether a state has few numbers, and as many in every run, so that they may stay in registers. */
 bool compose_small(const model *);
+/* Tells whether the text asks after every step whether an event may have happened in it. */
+bool compose_watched(const model *, const chosen *);
 /* Tells whether the functions of the model's rules are the same in every run. */
 bool compose_bounds_are_structure(const model *);
 /* Returns the number of doubles in the widest vector of this processor: 1, 2, 4 or 8. */

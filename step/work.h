@@ -117,13 +117,14 @@ struct watch {
     bool (*quiet)(watch *); /* nothing has happened in the step */
     void *ctx;
     real *from_x, *from_v, *to_x, *to_v; /* the states at its ends */
+    real *from_a, *to_a;                 /* of fixed steps: the accelerations there */
     real *most;                          /* bounds on the accelerations within it */
     real *largest_x, *largest_v;         /* become the largest sizes of the states at which steps begin */
     real *middle, *width, *least; /* room for a box (box.h), x and then v, and for a bound on each of `functions` */
     size_t functions;
     clock t, lost, to_t, to_lost; /* where it began, and where it ended */
     ticks n;                      /* steps before it */
-    bool known;                   /* `most` has the acceleration there */
+    bool known;                   /* `most` has the acceleration there; of fixed steps: its ends are observed */
     bool shown;                   /* `quiet` has been asked after this step */
     bool met;                     /* something may have happened in the last step */
 };

@@ -126,7 +126,7 @@ static double error(const trajectory *s, size_t r)
     return bar;
 }
 
-static motus_status begin_events(worker *w, double until, motus_error *err)
+static motus_status begin_events(worker *w, double until, bool errors, motus_error *err)
 {
     const rules *rules;
     motus_status status = system_rules(w->system, &rules, err);
@@ -134,6 +134,7 @@ static motus_status begin_events(worker *w, double until, motus_error *err)
     if (!w->events) status = events_create(rules, &w->machine, &w->e->chosen, &w->e->allocator, &w->events, err);
     if (status != MOTUS_OK) return status;
     events_forget(w->events);
+    events_doubted(w->events, errors);
     return events_begin(w->events, w->stepper, until, err);
 }
 
@@ -153,7 +154,7 @@ motus_status ensemble_single_begin(trajectory *s, const places *p, size_t k, boo
                  : stepper_create(&w->machine, &e->chosen, t->t0, t->h, s->x, s->v, &e->allocator, &w->stepper, err);
     *began = status == MOTUS_OK;
     if (status == MOTUS_OK) stepper_judged(w->stepper, diagnosis_crawls, &w->diagnosed);
-    if (status == MOTUS_OK) status = begin_events(w, t->until, err);
+    if (status == MOTUS_OK) status = begin_events(w, t->until, s->errors, err);
     if (status == MOTUS_OK && s->errors) status = ensemble_errors_begin(w, s->values, k, err);
     return status;
 }

@@ -1,13 +1,20 @@
 /* Events of a run. See run_events.h. */
 #include "api/motion/run_events.h"
 
+/* Prepares events for what the run may be asked for. */
+static void expect(const motus_run *r, events *e)
+{
+    events_may_save(e);
+    events_doubted(e, r->company != NULL);
+}
+
 motus_status run_events_begin(motus_run *r, motus_error *err)
 {
     motus_status status = system_rules(r->system, &r->rules, err);
     if (status != MOTUS_OK || !r->rules) return status;
     if (r->locate) return fail(err, MOTUS_UNAVAILABLE, "a run with events cannot resolve switches");
     if (!r->events) status = events_create(r->rules, &r->machine, &r->chosen, &r->allocator, &r->events, err);
-    if (status == MOTUS_OK) events_may_save(r->events);
+    if (status == MOTUS_OK) expect(r, r->events);
     return status == MOTUS_OK ? events_begin(r->events, r->stepper, r->timing.until, err) : status;
 }
 
@@ -78,7 +85,7 @@ motus_status run_events_load(motus_run *r, stepper_count then, const double *car
     events_destroy(status == MOTUS_OK ? r->events : fresh);
     if (status != MOTUS_OK) return status;
     r->events = fresh;
-    events_may_save(fresh);
+    expect(r, fresh);
     return MOTUS_OK;
 }
 

@@ -58,6 +58,7 @@ __attribute__((flatten)) static bool compiled_small(work *given, whole steps)
     w->diagonal = NULL;
     w->stride = STRIDE;
     w->moved = 0;
+    w->fresh &= ROW_adaptive;
     WRITTEN_OUT for (int i = 0; i < CONSTANTS; i++) scaled[i] = given->scaled[i];
     w->scaled = scaled;
     w->ex = w->ev = w->old = w->next_x = w->delta = w->r = w->xs = w->vs = w->ks = w->dx = w->dv = NULL;
@@ -94,7 +95,7 @@ static inline bool compiled_begins(const work *w)
 int motus_run(work *given, whole steps)
 {
     const compiled_host *host = given->host;
-    if (!FITS(host->u)) return host->run(given, steps);
+    if (!FITS(host->u) || (given->watch && !WATCHES(given))) return host->run(given, steps);
     if (compiled_begins(given) && steps > 0) {
         const int bad = host->run(given, 1);
         if (bad || compiled_met(given)) return bad;
@@ -114,7 +115,7 @@ int motus_run(work *given, whole steps)
 #else
 int motus_run(work *given, whole steps)
 {
-    if (!FITS(given->host->u)) return given->host->run(given, steps);
+    if (!FITS(given->host->u) || (given->watch && !WATCHES(given))) return given->host->run(given, steps);
     work local = *given, *w = &local;
     int bad = STEP_OK;
     w->diagonal = NULL;

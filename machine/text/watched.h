@@ -15,7 +15,8 @@ static inline bool compiled_idle(const work *w)
     real *const least = of->least;
     const box in = {of->middle, of->middle + FACT(w, nx), of->width, of->width + FACT(w, nx)};
 #endif
-    box_of(&in, FACT(w, nx), FACT(w, nv), watch_span(of), of->from_x, of->from_v, of->to_x, of->to_v, of->most);
+    box_of(&in, FACT(w, nx), FACT(w, nv), ROW(w, adaptive) ? watch_span(of) : w->h, of->from_x, of->from_v, of->to_x,
+           of->to_v, of->most);
     for (size_t f = 0; f < functions; f++) least[f] = INFINITY; /* of cells without a rule */
     compiled_least(host->pool, host->q, host->u, host->bound, (real *)0, CLOCK(0), (const clock *)0, in.x, in.v,
                    (real *)0, least, in.dx, in.dv);
