@@ -492,6 +492,7 @@ motus_status solution_find(study *s, const study_grid *g, int64_t steps, double 
 double solution_allows(const study *s, const solution *r, char *why, size_t size)
 {
     char t[DECIMAL_MAX];
+    motus_column time = motus_default_column();
     why[0] = 0;
     if (r->uneven) {
         snprintf(why, size, "the force is not smooth, and where it jumps could not be found");
@@ -500,13 +501,14 @@ double solution_allows(const study *s, const solution *r, char *why, size_t size
     if (r->jump.order < 0) return 0;
     const bool infinite = r->jump.power != (double)r->jump.order;
     decimal_time(r->jump.time, s->until - s->from, t);
+    motus_column_at(s->system, 0, &time);
     if (r->jump.order == 0)
-        snprintf(why, size, "the force %s at t = %s", infinite ? "is infinite" : "jumps", t);
+        snprintf(why, size, "the force %s at %s = %s", infinite ? "is infinite" : "jumps", time.name, t);
     else if (r->jump.order == 1)
-        snprintf(why, size, "the slope of the force %s at t = %s", infinite ? "is infinite" : "jumps", t);
+        snprintf(why, size, "the slope of the force %s at %s = %s", infinite ? "is infinite" : "jumps", time.name, t);
     else
-        snprintf(why, size, "derivative %d of the force %s at t = %s", (int)r->jump.order,
-                 infinite ? "is infinite" : "jumps", t);
+        snprintf(why, size, "derivative %d of the force %s at %s = %s", (int)r->jump.order,
+                 infinite ? "is infinite" : "jumps", time.name, t);
     return fmax(r->jump.power + 1, 0.01);
 }
 

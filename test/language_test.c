@@ -887,6 +887,34 @@ static void rule_21_errors(void **unused)
     if (!strstr(err.message, " tau = 1") || strstr(err.message, " t = ")) fail_msg("%s", err.message);
     motus_run_destroy(r);
     motus_system_destroy(s);
+    /* what is found by reading, by events, by trial runs, and behind the run */
+    static const struct {
+        const char *lines, *method, *says;
+    } cases[] = {{"x'' = -x - x'/10\ninvariant E = x^2 + x'^2", NULL, " at s = "},
+                 {"x'' = -x\ninvariant E = x^2 + x'^2 + if(s > 3, 1, 0)", NULL, " s = 3"},
+                 {"x'' = -x\nexact x = cos(s) + s^4", NULL, " at s = "},
+                 {"x'' = -1\nwhen x = 0 as b: x' = -x'/2\nwhen b accumulates: x' = 0\nwhen x <= 0: x' = -x'", "rk4",
+                  "one instant, s = "},
+                 {"x'' = 6 x^2", "rk4", " s = "},
+                 {"x'' = -x + interp(s, 0, 1, [0, 1, 2])", "dop853", "at s = 2 s goes beyond 2"},
+                          {"x'' = -1e10*(x' - cos(s))", "dopri5", " at s = "}};
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        char text[400];
+        motus_status status;
+        snprintf(text, sizeof text, "time s\n%s\nx(0) = 1\nx'(0) = 0\nuntil 30", cases[k].lines);
+        err = motus_default_error();
+        s = NULL, r = NULL;
+        def = motus_default_run();
+        def.method = cases[k].method;
+        if (def.method && !strcmp(def.method, "rk4")) def.step = 0.01;
+        status = read_text(text, NULL, 0, &s, &err);
+        if (!status) status = motus_run_create(s, &def, &r, &err);
+        if (!status) status = motus_run_finish(r, &err);
+        if (!status || !strstr(err.message, cases[k].says) || strstr(err.message, " t = ") || strstr(err.hint, " t = "))
+            fail_msg("%s: %s (%s)", cases[k].lines, err.message, err.hint);
+        motus_run_destroy(r);
+        motus_system_destroy(s);
+    }
 }
 
 static void rule_17_derivatives(void **unused)
@@ -1090,6 +1118,64 @@ static void carets_stand_under_the_fault(void **unused)
 }
 
 /* Texts without a line in them. */
+/* What people bring from other languages and from print is refused with the text to write. */
+static void first_words(void **unused)
+{
+    (void)unused;
+    static const struct {
+        const char *lines, *hint;
+    } cases[] = {
+        {"x'' = (0,5 + 1) x", "a decimal number is written with a point: 0.5"},
+        {"x'' = -sin(0,5 x)", "a decimal number is written with a point: 0.5"},
+        {"x'' = -x²", "write x^2"},
+        {"x'' = -k x/10⁻³", "write 10^-3"},
+        {"d²x/dt² = -x", "derivatives are written with primes: x'' = …"},
+        {"g = 9.81 m/s²", "a unit is no part of a number: write it in a comment, 9.81 # m/s²"},
+        {"x'' = -x.dot", "derivatives by the time are written with primes"},
+        {"\\ddot{x} = -x", "derivatives are written with primes: x''"},
+        {"x'' = -\\frac{k}{m} x", "write k/m"},
+        {"x'' = -\\frac{k+1}{m} x", "write (k+1)/(m)"},
+        {"x'' = -\\sqrt{x}", "write sqrt(x)"},
+        {"x'' = -k \\cdot x", "a product is written"},
+        {"x'' = -\\omega x", "write omega"},
+        {"m = 2\nF = m*a", "Newton's law m x'' = F"},
+        {"F = -x\nF = 2", "Newton's law is written m x'' = F"},
+        {"x'' = -atan2(x)", "write atan2(y, x)"},
+        {"x'' = -hypot(x)", "write hypot(a, b)"},
+        {"x'' = -x // the spring", "a comment begins with #"},
+        {"' the spring", "a comment begins with #"},
+        {"r'' = -r\nr(0) = [0, 0, 1]; r'(0) = (0, 0, 0)", "a vector is written (0, 0, 1)"},
+        {"r'' = -r\nr(0) = {0, 1}", "a vector is (1, 2)"},
+        {"r'' = -r\nr(0) = <0, 1>", "a vector stands in round brackets"},
+        {"r'' = -r\nr(0) = (0 1)", "(0, 1) for a vector"},
+        {"x'' = 1_000 x", "write 1000"},
+        {"x'' = 1 000 x", "write 1000"},
+        {"x'' = 1'000 x", "write 1000"},
+        {"x'' = -½ x", "write 1/2"},
+        {"x'' = -x – 1", "write -"},
+        {"x'' = -sin 2x", "write sin(2x)"},
+        {"T = 0..10", "T[i] = i for i = 1..10"},
+        {"x'' = delta(t)", "an event for a push"},
+        {"y'' = -y; y(0) = 1; y_dot(0) = 0", "y'(0) = …"},
+        {"T = [0, 1]\nx'' = interp(T, T, t)", "write interp(t, T, A)"},
+        {"T = [0, 1]\nx'' = interp(t, T, T, 0)", "interp(t, T, A, hold) for the end values"},
+        {"x'' = interp(t, x, T, T, A)", "on a uniform grid"},
+        {"x'' = lookup(t, T, A)", "write interp(t, T, A)"},
+    };
+    int faults = 0;
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        char text[300];
+        motus_system *s = NULL;
+        motus_error err = motus_default_error();
+        const bool equation = strstr(cases[k].lines, "x''") || strstr(cases[k].lines, "x/d");
+        snprintf(text, sizeof text, "%s%s\nx(0) = 1\nx'(0) = 0\n", equation ? "" : "x'' = -x\n", cases[k].lines);
+        assert_int_not_equal(read_text(text, NULL, 0, &s, &err), MOTUS_OK);
+        if (!strstr(err.hint, cases[k].hint))
+            print_error("%s: %s (%s)\n", cases[k].lines, err.message, err.hint), faults++;
+    }
+    assert_int_equal(faults, 0);
+}
+
 static void empty_texts(void **unused)
 {
     (void)unused;
@@ -1180,6 +1266,7 @@ int main(void)
         cmocka_unit_test(analysis_reads_the_equations),
         cmocka_unit_test(settings_are_read),
         cmocka_unit_test(carets_stand_under_the_fault),
+        cmocka_unit_test(first_words),
         cmocka_unit_test(empty_texts),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

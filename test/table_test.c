@@ -444,8 +444,8 @@ static void refused(const char *line, const char *words)
 static void bad_tables(void **state)
 {
     (void)state;
-    refused("interp(t, A)", "interp takes its argument, and a table");
-    refused("interp(t, 0, 1, 2, A)", "interp takes its argument, and a table");
+    refused("interp(t, A)", "interp takes one argument and one table");
+    refused("interp(t, 0, 1, 2, A)", "three or four things in all, not 5");
     refused("interp(t, k, A)", "interp takes a list here, and k is none");
     refused("interp(t, M, A)", "interp takes a list here, and M is none");
     refused("interp(t, x, A)", "interp takes a list here, and x is none");
@@ -455,7 +455,7 @@ static void bad_tables(void **state)
     refused("interp(t, 0, -1, A)", "the points of a table rise, but from 0 on -1 leads to -1");
     refused("interp(t, 1e17, 1, A)", "the points of a table rise, but from 1e+17 on 1 leads to 1e+17");
     refused("interp(t, [0], [1])", "a table has two points or more");
-    refused("interp(B, T, A)", "B is a list");
+    refused("interp(B, T, A)", "interp takes a number, and then the lists of a table");
     refused("interp(t, 0, 1, A[2])", "interp takes a list here, and A[2] is none");
     refused("if(x > 1, k2, 1)\nk2 = interp(7, T, A)", "k2 has no value: the argument 7 is beyond 4, the last point of");
     refused("f(2)\nf(c) = interp(t, 0, c, A)", "a point of a table is fixed and cannot depend on c");

@@ -21,6 +21,7 @@ motus_status motus_run_create(motus_system *s, const motus_run_def *given, motus
     const modes m = modes_enter();
     const motus_status status = goal_run(s, &def, out, err);
     if (status == MOTUS_OK) (*out)->cut = cuts_sentence(*out);
+    if (status != MOTUS_OK) column_names_error(s, err);
     modes_leave(m);
     return status;
 }
@@ -116,6 +117,7 @@ motus_status motus_run_step(motus_run *r, int64_t n, motus_error *err)
     motus_status status = r->observing ? run_refuse_move(err) : MOTUS_OK;
     if (status == MOTUS_OK && !(n > 0 && goal_arrive(r, n))) status = run_step(r, n, err);
     if (status == MOTUS_OK) status = goal_judge(r, err);
+    if (status != MOTUS_OK) column_names_error(r->system, err);
     modes_leave(m);
     return status;
 }

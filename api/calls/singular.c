@@ -13,6 +13,7 @@
 #include "api/motion/run.h"
 #include "api/motion/run_events.h"
 #include "api/system/vector.h"
+#include "api/system/columns.h"
 
 #include <float.h>
 #include <math.h>
@@ -185,7 +186,10 @@ static motus_status accuse(const judge *j, motus_status what, double from, motus
 {
     char a[MOTUS_TEXT_MAX], b[MOTUS_TEXT_MAX];
     const double to = run_time(j->run);
-    if (what == MOTUS_SINGULAR && undefined_start(j, from, err)) return what;
+    if (what == MOTUS_SINGULAR && undefined_start(j, from, err)) {
+        column_names_error(j->run->system, err);
+        return what;
+    }
     for (int digits = 6; digits <= 17; digits++) {
         error_text(a, "%.*g", digits, from);
         error_text(b, "%.*g", digits, to);
@@ -209,6 +213,7 @@ static motus_status accuse(const judge *j, motus_status what, double from, motus
     if (err) err->time = from;
     if (what == MOTUS_SINGULAR && err)
         diagnosis_singular(&j->run->diagnosed, j->run->stepper, from, j->from.x, j->from.v, a, err);
+    column_names_error(j->run->system, err);
     return what;
 }
 

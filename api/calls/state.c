@@ -20,6 +20,7 @@
 #include "api/search/goal.h"
 #include "api/error/bars.h"
 #include "api/motion/run_events.h"
+#include "api/system/columns.h"
 
 #include "base/decimal.h"
 
@@ -450,6 +451,9 @@ motus_status motus_run_restore(motus_run *r, const char *text, size_t length, mo
     modes m = modes_enter(); /* so that no subnormal number is flushed when it is read */
     motus_status status = restore(r, text, length, err);
     modes_leave(m);
-    if (status == MOTUS_OK) goal_restored(r);
+    if (status == MOTUS_OK)
+        goal_restored(r);
+    else
+        column_names_error(r->system, err);
     return status;
 }

@@ -6,6 +6,7 @@
 #include "api/search/accuracy.h"
 
 #include "api/search/pilot.h"
+#include "api/system/columns.h"
 #include "lang/tape/tape.h"
 
 #include <math.h>
@@ -65,7 +66,8 @@ static bool passes(const motus_run *r, const operands *o, double t, const double
         char when[DECIMAL_MAX], what[MOTUS_TEXT_MAX / 4];
         decimal_near(at, fmin(fabs(step), 1e-3 * fabs(at - r->timing.t0)), when);
         model_print(r->system->model, o->of[k / nv].value, what, sizeof what);
-        error_text(out->text, "the force has an infinite slope where %s is 0, first at t = %s", what, when);
+        error_text(out->text, "the force has an infinite slope where %s is 0, first at %s = %s", what,
+                   columns_time(r->system), when);
         return true;
     }
     return false;

@@ -177,14 +177,15 @@ motus_status motus_columns_named(const motus_system *s, size_t count, const char
     return MOTUS_OK;
 }
 
-/* Returns whether "t = " within a sentence is the time: a word before it says so. */
+/* Returns whether "t = " or "t nears" within a sentence is the time: a word before it says so. */
 static bool says_time(const char *sentence, const char *at)
 {
-    static const char *const words[] = {"at ",      "near ", "from ",   "until ", "after ",
-                                        "between ", "and ",  "change ", "start, "};
+    static const char *const words[] = {"at ",  "near ",   "from ",   "until ",    "after ", "between ",
+                                        "and ", "change ", "start, ", "instant, ", "as "};
     for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
         const size_t n = strlen(words[i]);
-        if ((size_t)(at - sentence) >= n && !strncmp(at - n, words[i], n)) return !strncmp(at, "t = ", 4);
+        if ((size_t)(at - sentence) >= n && !strncmp(at - n, words[i], n))
+            return !strncmp(at, "t = ", 4) || !strncmp(at, "t nears ", 8);
     }
     return false;
 }

@@ -20,6 +20,7 @@ void column_names_time(const motus_system *, char *sentence, size_t size);
 static inline void column_names_error(const motus_system *s, motus_error *err)
 {
     if (err) column_names_time(s, err->message, sizeof err->message);
+    if (err) column_names_time(s, err->hint, sizeof err->hint);
 }
 /* Reports that the callback for `which` returned `answer` at time t. Returns MOTUS_CALLBACK. */
 motus_status columns_callback_failed(const char *which, double t, int answer, motus_error *);

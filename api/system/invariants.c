@@ -107,26 +107,26 @@ static motus_status refuse(model *m, const model_definition *d, size_t k, double
     char number[64] = "", time[DECIMAL_MAX];
     if (d->numbers > 1) snprintf(number, sizeof number, " (number %zu of %zu)", k + 1, d->numbers);
     source_complain(&m->source, MOTUS_ARGUMENT, &d->statement->at,
-                    "%s%s is no invariant: along the motion it changes at the rate %.6g at t = %s", d->name, number,
-                    rate, decimal_time(t, m->until - m->start, time));
+                    "%s%s is no invariant: along the motion it changes at the rate %.6g at %s = %s", d->name, number,
+                    rate, m->time, decimal_time(t, m->until - m->start, time));
     source_hint(&m->source,
                 "correct it or the equations; without the word invariant it is a quantity, which may change");
     return MOTUS_ARGUMENT;
 }
 
-enum { WHEN_MAX = 2 * DECIMAL_MAX + 32 };
+enum { WHEN_MAX = 2 * DECIMAL_MAX + 2 * MOTUS_NAME_MAX + 32 };
 
 /* Writes when something happens that lies between two times: the digits that both share, else both. */
-static char *between_times(double from, double to, char out[WHEN_MAX])
+static char *between_times(const char *name, double from, double to, char out[WHEN_MAX])
 {
     enum { MOST = 6, LEAST = 3 };
     char a[DECIMAL_MAX], b[DECIMAL_MAX];
     for (int digits = MOST; digits >= LEAST; digits--) {
         snprintf(a, sizeof a, "%.*g", digits, from);
         snprintf(b, sizeof b, "%.*g", digits, to);
-        if (!strcmp(a, b)) return snprintf(out, WHEN_MAX, "at t = %s", a), out;
+        if (!strcmp(a, b)) return snprintf(out, WHEN_MAX, "at %s = %s", name, a), out;
     }
-    snprintf(out, WHEN_MAX, "between t = %.*g and t = %.*g", MOST, from, MOST, to);
+    snprintf(out, WHEN_MAX, "between %s = %.*g and %s = %.*g", name, MOST, from, name, MOST, to);
     return out;
 }
 
@@ -139,7 +139,7 @@ static motus_status refuse_jump(const runs *r, const model_definition *d, size_t
     verify_digits(from, to, a, b);
     source_complain(&m->source, MOTUS_ARGUMENT, &d->statement->at,
                     "%s%s is no invariant: along the motion it jumps from %s to %s %s", d->name, number, a, b,
-                    between_times(r->jumps_from - late, r->jumps_to + late, at));
+                    between_times(m->time, r->jumps_from - late, r->jumps_to + late, at));
     source_hint(&m->source,
                 "correct it or the equations; without the word invariant it is a quantity, which may change");
     return MOTUS_ARGUMENT;

@@ -11,6 +11,7 @@
 #include "lang/lower/lower_parts.h"
 #include "lang/model/kept.h"
 #include "lang/model/symbols.h"
+#include "lang/text/foreign.h"
 
 #include <string.h>
 
@@ -80,6 +81,7 @@ bool lower_fits(model *m, const statement *s, const model_state *state, value v,
     if (state->components) snprintf(due, sizeof due, "a vector of length %d", state->components);
     source_complain(&m->source, MOTUS_SHAPE, &s->value->at, "%s is %s, but %s is %s by its initial value", what, is,
                     state->name, due);
+    if (!state->components) foreign_decimal(&m->source, &s->value->at);
     if (v.count) source_hint(&m->source, "write %s(%g) = (…) for a vector", state->name, m->start);
     return false;
 }

@@ -166,6 +166,14 @@ static bool check_points(lowering *l, const tree *t, const tree *distance, const
     return true;
 }
 
+/* Returns whether a tree is a list, or the name of one. */
+static bool is_list(const lowering *l, const tree *t)
+{
+    const bool name = t->kind == TREE_NAME && !t->index_count && !lower_find_argument(l, t->name);
+    const model_definition *const d = name ? symbols_find(l->model, t->name).definition : NULL;
+    return t->kind == TREE_LIST || (d && d->statement->value->kind == TREE_LIST);
+}
+
 value lower_table(lowering *l, const tree *t)
 {
     model *m = l->model;
@@ -173,6 +181,14 @@ value lower_table(lowering *l, const tree *t)
     const bool hold = t->primes != 0, uniform = t->count == 4;
     const tree *values = t->item[t->count - 1];
     numbers list, points;
+    if (is_list(l, t->item[0]) || (uniform && is_list(l, t->item[1]))) {
+        COMPLAIN(l, &t->at, "%s takes a number, and then the lists of a table", t->name);
+        HINT(l,
+             is_list(l, t->item[0]) ? "write %s(t, T, A)"
+                                    : "write %s(t, T, A), or %s(t, T, A, hold) for the end values",
+             t->name, t->name);
+        return wrong(l);
+    }
     const node u = lower_scalar(l, t->item[0], "the argument of a table");
     if (failed(l) || !list_of(l, t, values, &list)) return wrong(l);
     if (!(uniform ? grid_of(l, t, list.count, &points) : list_of(l, t, t->item[1], &points))) return wrong(l);

@@ -8,6 +8,7 @@
 #include "lang/model/symbols.h"
 
 #include <math.h>
+#include <string.h>
 
 static bool equal_shapes(lowering *l, const tree *t, const tree *a, const value *va, const tree *b, const value *vb,
                          const char *sign)
@@ -534,11 +535,15 @@ value lower_tree(lowering *l, const tree *t)
         v = lower_truth(l, t->item[0]);
         return failed(l) ? wrong(l) : condition(l, graph_op(g, OP_NOT, v.item[0], 0, 0));
     case TREE_VECTOR: return lower_vector(l, t);
-    case TREE_LIST:
+    case TREE_LIST: {
+        char text[80];
         if (t->count > 0 && t->item[0]->kind == TREE_LIST) return lower_matrix(l, t);
         COMPLAIN(l, &t->at, "a list can only be the whole value of a parameter");
-        HINT(l, "write m = [1, 2], then m[1]; a vector is written (1, 2)");
+        quote(l, &t->at, text);
+        HINT(l, "a vector is written (%.*s); a list is a line of its own, m = [1, 2], and then m[1] is an entry",
+             (int)strlen(text) - 2, text + 1);
         return wrong(l);
+    }
     case TREE_COMPONENT: return lower_component(l, lower_expression(l, t->item[0]), t->item[1], t);
     case TREE_NORM:
         v = lower_numbers(l, t->item[0]);

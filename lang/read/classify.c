@@ -178,6 +178,14 @@ static bool classify_definitions(model *m)
     return true;
 }
 
+/* Returns whether a name may be the velocity of a state: v, vx, x_dot, xdot. */
+static bool is_velocity(const char *name, const char *state)
+{
+    const size_t length = strlen(state);
+    const bool dot = !strncmp(name, state, length) && (!strcmp(name + length, "_dot") || !strcmp(name + length, "dot"));
+    return name[0] == 'v' || dot;
+}
+
 /* Complains about initial values and exact motions without an equation of motion, and about an initial value for the
  * rate of a first-order variable. */
 static bool check_orphans(model *m)
@@ -200,8 +208,8 @@ static bool check_orphans(model *m)
                     source_repair(&m->source, s->name, "%s", m->states[k].name);
                 }
             char at[80];
-            for (uint32_t k = 0; s->kind == STATEMENT_START && k < m->state_count && s->name[0] == 'v'; k++)
-                if (m->states[k].order == 2)
+            for (uint32_t k = 0; s->kind == STATEMENT_START && k < m->state_count; k++)
+                if (m->states[k].order == 2 && is_velocity(s->name, m->states[k].name))
                     source_hint(&m->source, "the velocity of %s at the start is %s'(%s) = …", m->states[k].name,
                                 m->states[k].name, quote(m, &s->applied->item[1]->at, at));
             source_hint(&m->source, "write one: %s'' = …", s->name);

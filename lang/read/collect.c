@@ -12,6 +12,7 @@ static void twice(model *m, const statement *s, span earlier)
 {
     source_complain(&m->source, MOTUS_NAME, &s->name_at, "%s is defined twice; the first time in line %d", s->name,
                     source_line(&m->source, &earlier));
+    if (!strcmp(s->name, "F")) source_hint(&m->source, "remove one of them; Newton's law is written m x'' = F");
     source_hint(&m->source, "remove one of them, or give it another name");
 }
 

@@ -60,9 +60,9 @@ static motus_status wrong_force(model *m, const verify_sample *s, size_t k)
     if (prime) memmove(prime + 1, prime, strlen(prime) + 1);
     verify_digits(s->e[k], s->a[k], a, b);
     source_complain(&m->source, MOTUS_ARGUMENT, &exact_line(m)->at,
-                    "the exact motion does not obey the equation: at t = %s %s is %s, but the force gives %s; they "
+                    "the exact motion does not obey the equation: at %s = %s %s is %s, but the force gives %s; they "
                     "differ by %.2g",
-                    decimal_time(s->t, m->until - m->start, time), name, a, b, s->e[k] - s->a[k]);
+                    m->time, decimal_time(s->t, m->until - m->start, time), name, a, b, s->e[k] - s->a[k]);
     source_hint(&m->source, "correct the exact line, or leave it out");
     return MOTUS_ARGUMENT;
 }
@@ -71,7 +71,7 @@ static motus_status pole(model *m, double t)
 {
     char time[DECIMAL_MAX];
     source_complain(&m->source, MOTUS_ARGUMENT, &exact_line(m)->at,
-                    "the exact motion has a pole at t = %s: it obeys the equation before that alone",
+                    "the exact motion has a pole at %s = %s: it obeys the equation before that alone", m->time,
                     decimal_time(t, m->until - m->start, time));
     source_hint(&m->source, "let the run end before that: until = ...");
     return MOTUS_ARGUMENT;

@@ -143,6 +143,16 @@ bool foreign_name(source *s, const span *whole)
         source_hint(s, "write %s(%s)", lower, source_excerpt(s, &inside, a, sizeof a));
         return true;
     }
+    if (name[0] == '_' && digit(name[1]) && at->from > 0 && digit(t->bytes[at->from - 1])) {
+        source_hint(s, "a number has no marks for thousands: write %s%s", source_excerpt(s, &before, a, sizeof a),
+                    name + 1);
+        return true;
+    }
+    const uint32_t end = before.to;
+    if (!strcmp(name, "a") && end > 0 && (t->bytes[end - 1] == '*' || t->bytes[end - 1] == 'm')) { /* F = m a */
+        source_hint(s, "an acceleration is written x'', and Newton's law m x'' = F; or define a");
+        return true;
+    }
     if (!strcmp(lower, "pi")) source_hint(s, "write pi");
     return !strcmp(lower, "pi");
 }

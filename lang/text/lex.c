@@ -2,6 +2,7 @@
 #include "lang/text/lex.h"
 
 #include "base/utf8.h"
+#include "lang/text/foreign.h"
 
 #include <math.h>
 #include <string.h>
@@ -176,8 +177,13 @@ static token wrong_character(lexer *l, uint32_t from, uint32_t c, uint32_t size)
         {0x2211, 0x2211, sign, "write sum(i = 1..N: …)"},
         {';', ';', "; ends a statement, and here a bracket is open",
          "close the bracket; a comma stands between components, arguments and conditions"},
+        {0xBC, 0xBE, "a fraction in one sign is not read", "write 1/2, 1/4, 3/4"},
+        {0xB1, 0xB1, "this sign is not an operator here", "write + or -"},
+        {0x2010, 0x2015, "a dash is not a minus", "write -"},
         {'{', '{', "there are no braces in the language",
-         "group with ( ), and choose by if(condition, a, b); what an event does stands behind a colon"},
+         "group with ( ); a vector is (1, 2), a list [1, 2], a choice if(condition, a, b); what an event does stands "
+         "behind "
+         "a colon"},
         {'}', '}', "there are no braces in the language", "group with ( )"},
         {'&', '&', "there is no & in the language", "write: and"},
         {'!', '!', "! alone means nothing", "write != for unequal, not for the logical not; a comment begins with #"},
@@ -202,6 +208,8 @@ static token wrong_character(lexer *l, uint32_t from, uint32_t c, uint32_t size)
     for (size_t i = 0; size && i < sizeof known / sizeof *known; i++)
         if (c >= known[i].first && c <= known[i].last) {
             source_complain(s, MOTUS_SYNTAX, &at, "%s", known[i].what);
+            if (known[i].what == raised) foreign_raised(s, &at);
+            if (c == '\\') foreign_latex(s, &at);
             source_hint(s, "%s", known[i].hint);
             return stop(l, from);
         }

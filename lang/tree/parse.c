@@ -84,6 +84,12 @@ static bool wrong_juxtaposition(parser *p, const tree *product)
         quote(p, &left->at, a);
         quote(p, &p->token.at, b);
         COMPLAIN(p, &at, "a number comes first in a product: %s %s is not read", a, b);
+        const bool round = p->lexer.depth > 0 && p->lexer.closer[p->lexer.depth - 1] == ')',
+                   whole = only_digits(p, left->at) && only_digits(p, p->token.at);
+        if (left->kind == TREE_NUMBER && whole && strlen(b) == 3)
+            HINT(p, "a number has no blanks: write %s%s; a product %s*%s", a, b, a, b);
+        if (left->kind == TREE_NUMBER && whole && round)
+            HINT(p, "write %s*%s, %s.%s for a decimal number, (%s, %s) for a vector", a, b, a, b, a, b);
         if (list) HINT(p, "the entries of a list have commas between them: [1, 2]; a matrix is [[1, 2], [3, 4]]");
         if (left->kind == TREE_NAME && !strcmp(left->name, "to"))
             HINT(p, "a run has two lines: from 0, and until %s", b);
@@ -93,7 +99,7 @@ static bool wrong_juxtaposition(parser *p, const tree *product)
             HINT(p, "write %s/%s*%s or %s/(%s*%s)", quote(p, &product->item[0]->at, c), a, b, c, a, b);
         else if (left->kind != TREE_NUMBER)
             HINT(p, "write %s %s or %s*%s", b, a, a, b);
-        else if (only_digits(p, left->at) && only_digits(p, p->token.at))
+        else if (whole)
             HINT(p, "write %s*%s, or %s.%s for a decimal number", a, b, a, b);
         else
             HINT(p, "write %s*%s", a, b);

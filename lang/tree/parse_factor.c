@@ -181,8 +181,9 @@ static tree *parse_call(parser *p, span name)
             COMPLAIN(p, &name, "%s has its arguments in brackets", text);
             if (operation != OP_MOD) HINT(p, "write %s(a, b)", text); /* a mod b: parse.c */
         } else if (p->token.kind == TOKEN_NAME || p->token.kind == TOKEN_NUMBER) {
+            const span at = {p->token.at.text, p->token.at.from, p->token.at.from}, all = foreign_after(p->source, &at);
             COMPLAIN(p, &name, "%s needs its argument in brackets", text);
-            HINT(p, "write %s(%s)", text, quote(p, &p->token.at, argument));
+            HINT(p, "write %s(%s)", text, quote(p, &all, argument));
         } else if (p->token.kind == TOKEN_PRIMES) {
             COMPLAIN(p, &p->token.at, "a function takes no primes");
         } else {
@@ -200,7 +201,9 @@ static tree *parse_call(parser *p, span name)
     if (of_table(operation)) {
         take_hold(t);
         if (t->count == 3 || t->count == 4) return t;
-        COMPLAIN(p, &t->at, "%s takes its argument, and a table", text);
+        COMPLAIN(p, &t->at, "%s takes one argument and one table, so three or four things in all, not %u", text,
+                 t->count);
+        if (t->count > 4) foreign_decimal(p->source, &t->at);
         HINT(p, "write %s(t, T, A) with lists of points and values, or %s(t, t0, dt, A) on a uniform grid", text, text);
         return t;
     }
@@ -210,6 +213,9 @@ static tree *parse_call(parser *p, span name)
                  wanted < 0 ? -wanted : wanted, wanted == 1 ? "" : "s", t->count);
         if (operation == CALL_IF && t->count == 1) foreign_choice(p->source, &name);
         if (operation == CALL_IF) HINT(p, "write if(condition, value if true, value if false)");
+        foreign_decimal(p->source, &t->at);
+        if (!strcmp(text, "atan2")) HINT(p, "write atan2(y, x), the angle of (x, y); or atan(x)");
+        if (wanted == 2 && operation < OPERATIONS && operation != OP_MOD) HINT(p, "write %s(a, b)", text);
         if (operation == CALL_DIFF) HINT(p, "write diff(V(x), x): what is differentiated, then by what");
     }
     return t;
@@ -237,7 +243,7 @@ static void hint_product(parser *p, const tree *before)
     const span after = foreign_after(p->source, &(span){p->token.at.text, p->token.at.from, p->token.at.from});
     quote(p, &before->at, a);
     quote(p, &p->token.at, b);
-    if (!strcmp(b, "diff"))
+    if (!strcmp(b, "diff") || ((!strcmp(b, "dot") || !strcmp(b, "ddot")) && after.to == p->token.at.to))
         HINT(p, "derivatives by the time are written with primes: x', x''");
     else if (words_function(b) >= 0)
         HINT(p, "write %s(…), without %s", b, a);
@@ -409,7 +415,12 @@ tree *parse_factor(parser *p)
         t->number = p->token.number;
         advance(p);
         if (p->token.kind == TOKEN_PRIMES && !p->token.blank) {
+            char a[80], b[80];
+            lexer ahead = p->lexer;
+            const token next = lex_next(&ahead);
             COMPLAIN(p, &p->token.at, "a prime follows a name, not a number or a power");
+            if (next.kind == TOKEN_NUMBER && !next.blank)
+                HINT(p, "a number has no marks for thousands: write %s%s", quote(p, &t->at, a), quote(p, &next.at, b));
             HINT(p, "write the derivative out");
         }
         return t;
@@ -437,5 +448,7 @@ tree *parse_factor(parser *p)
     if (is(p, '|')) return parse_norm(p);
     unexpected(p, "a value");
     if (is(p, '.')) HINT(p, "a number needs a digit before the point: 0.5");
+    if (is(p, '<')) HINT(p, "a vector stands in round brackets: (1, 2)");
+    if (is(p, '/') || is(p, '*')) HINT(p, "a comment begins with #");
     return nothing(p);
 }

@@ -36,6 +36,8 @@ static void parse_end(parser *p, int line)
     }
     COMPLAIN(p, &p->token.at, "the statement should end here, but there is %s", quote(p, &p->token.at, text));
     if (p->token.kind == TOKEN_NAME) HINT(p, "one statement a line, or ; between them");
+    if (p->token.kind == TOKEN_DOTS || is(p, ':'))
+        HINT(p, "numbers in a row are a list, T[i] = i for i = 1..10; a run has two lines, from 0 and until 10");
 }
 
 static void parse_value(parser *p, statement *s)
@@ -162,6 +164,7 @@ static void parse_left(parser *p, statement *s)
         if (slashes) HINT(p, "a comment begins with #");
         if (is(p, '+') || is(p, '-') || is(p, '*') || is(p, '/'))
             HINT(p, "a line goes on in the next where it ends with an operator, or inside a bracket");
+        if (p->token.kind == TOKEN_PRIMES) HINT(p, "a comment begins with #");
         if (p->token.kind == TOKEN_NUMBER || is(p, '('))
             HINT(p, "a statement begins with a name: x'' = …, k = 2, x(0) = 1");
         return;
