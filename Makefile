@@ -1,6 +1,7 @@
 # make              the program, build/motus, and the library
 # make demo         runs and compares the founding models; tables here, plots in out/
 # make lab          the page: build/lab/ for a server, build/lab/motus-lab.html for a double click
+# make python       the Python module, build/python/motus
 # make test         the tests of a change, in minutes: see test/steps; ends with "N passed, N failed"
 # make test-all     every test: besides, sanitizers, fuzzers, browsers, MPI, Slurm, aarch64, musl; names what this machine cannot run
 # make test-aarch64 every test program, compiled for aarch64 and run by qemu (make test-all does a part of it)
@@ -11,7 +12,7 @@
 # make functions    the elementary functions against MPFR: 1e7 random arguments each, and the hard ones (a quarter of an hour)
 # make clean
 #
-# demo, lab, test, test-all, bench, fuzz and tidy install what is missing where they may (cmake/need.sh); the others say what is missing.
+# demo, lab, python, test, test-all, bench, fuzz and tidy install what is missing where they may (cmake/need.sh); the others say what is missing.
 # Building is CMake's work: CMakeLists.txt, CMakePresets.json.
 
 PREFIX ?= /usr/local
@@ -21,7 +22,7 @@ JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 # The makes that CMake starts take their parallelism from here, not from this make's job server.
 CMAKE = MAKEFLAGS=--no-print-directory CMAKE_BUILD_PARALLEL_LEVEL=$(JOBS) cmake
 
-.PHONY: all demo lab test test-all test-aarch64 bench install clean fuzz format tidy functions manual need-demo
+.PHONY: all demo lab python test test-all test-aarch64 bench install clean fuzz format tidy functions manual need-demo
 .NOTPARALLEL:
 
 all:
@@ -40,13 +41,18 @@ lab:
 	@cmake/need.sh build lab
 	@JOBS=$(JOBS) cmake/lab.sh
 
+python: all
+	@cmake/need.sh python
+	@$(CMAKE) --preset release -DMOTUS_PYTHON=ON >build/configure.log 2>&1 || { cat build/configure.log; exit 1; }
+	@$(CMAKE) --build build --target motus_python
+
 test:
 	@cmake/need.sh build demo test
 	@MAKEFLAGS= CMAKE_BUILD_PARALLEL_LEVEL=$(JOBS) test/summary test
 
 test-all:
 	@cmake/need.sh build demo test
-	@cmake/need.sh --where-possible archives cluster cross musl lab page fuzz format
+	@cmake/need.sh --where-possible archives cluster cross musl lab page python fuzz format
 	@MAKEFLAGS= CMAKE_BUILD_PARALLEL_LEVEL=$(JOBS) test/summary all
 
 test-aarch64: all

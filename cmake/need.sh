@@ -2,7 +2,7 @@
 # Checks that the packages which a target needs are installed. Missing ones are installed by apt-get if this user may do so (root, or
 # sudo without a password); otherwise the script prints the command that installs them, and the exit status is 1.
 #
-#   cmake/need.sh [--check | --where-possible] build|demo|test|archives|cluster|cross|musl|aarch64|lab|page|bench|fuzz|format|tidy ...
+#   cmake/need.sh [--check | --where-possible] build|demo|test|archives|cluster|cross|musl|aarch64|lab|page|python|bench|fuzz|format|tidy ...
 #
 # --check installs nothing. --where-possible installs what can be had here, names the rest in a line, and the exit status is 0.
 set -eu
@@ -52,6 +52,7 @@ for what; do
              [ -e /usr/lib/aarch64-linux-gnu/lib$library.so ] || add lib$library-dev:arm64
            done ;;
     lab)   tool node nodejs; tool npm npm; tool wasm-opt binaryen; tool clang clang; tool wasm-ld lld; wasm_links || add wasi ;;
+    python) module cffi python3-cffi; module numpy python3-numpy; [ -e /usr/include/python3*/Python.h ] || header Python.h python3-dev ;;
     page)  tool chromium chromium; tool firefox-esr firefox-esr ;;
     bench) tool g++ build-essential; header gsl/gsl_odeiv2.h libgsl-dev; header arkode/arkode_erkstep.h libsundials-dev
            header boost/version.hpp libboost-dev

@@ -284,6 +284,8 @@ judge "only base/platform.c knows Linux" "$(
         --include='*.[ch]' base core step lang machine api study archive tell cli mpi | grep -v '^base/platform\.c:')"
 judge "base/platform.c is complete with POSIX alone" "$(
     cc -std=c17 -Wall -Wextra -Wpedantic -Werror -U__linux__ -D_XOPEN_SOURCE=700 -I. -fsyntax-only base/platform.c 2>&1)"
+judge "python/ knows motus by its public headers" "$(
+    grep -rnE --include='*.py' '"[a-z/-]+\.h"|<[a-z/-]+\.h>|CDLL|LoadLibrary' python | grep -vE 'HEADERS = \("motus\.h",\)|^python/test/')"
 judge "no pragma lets the compiler change results" "$(
     grep -nE '^[[:space:]]*#[[:space:]]*pragma.*(FP_CONTRACT +ON|GCC optimize|float_control|clang fp)' $(ours))"
 
