@@ -200,7 +200,7 @@ motus_status events_begin(events *e, stepper *s, double until, motus_error *err)
 {
     e->start = e->grid_start = stepper_time(s);
     e->grid_step = stepper_step(s);
-    e->until = until;
+    e->until = e->leg_end = until;
     e->way = until < e->start ? -1 : 1;
     e->steps = 0;
     e->broken = e->stopped = false;
@@ -499,35 +499,70 @@ void events_move(events *e, const machine *m)
     e->probe = NULL;
 }
 
-/* Computes the acceleration at `left` into a. */
-static void accelerate(const events *e, double *a)
+/* Computes the acceleration at time t in the state `left` into a. */
+static void accelerate(const events *e, double t, double *a)
 {
     const problem *p = &e->problem;
     memset(a, 0, p->nv * sizeof *a);
-    if (p->accel(p->ctx, e->left.t, e->left.x, e->left.v, a)) memset(a, 0, p->nv * sizeof *a);
+    if (p->accel(p->ctx, t, e->left.x, e->left.v, a)) memset(a, 0, p->nv * sizeof *a);
+}
+
+/* Adds to `size` a part of how far the acceleration changes between two times by the time alone. */
+static void add_change(const events *e, double part, const double *from, const double *to, double *size)
+{
+    for (size_t k = 0; k < e->problem.nv; k++)
+        if (isfinite(to[k] - from[k])) size[k] += part * fabs(to[k] - from[k]);
+}
+
+/* Returns the time at which switches change next along `way`, but not beyond `end`. */
+static double known_time(const events *e, double way, double end)
+{
+    const double t = e->rules.next ? e->rules.next(e->rules.ctx, way, e->left.t, e->left.x) : end;
+    return way * (end - t) > 0 ? t : end;
+}
+
+/* Returns how much the changes of a force count, twice what they do; more if the stages have large weights of both
+ * signs, since the time of each stage is rounded. */
+static double changes_count(const events *e) { return fmax(1, row_weights(&e->method) / 2); }
+
+/* Begins to measure what the rounding of a known time does to velocities, in units of this rounding: the jump of the
+ * acceleration there, and half its change by the time alone from the known time before and to the one after, because
+ * rounded points of the time make the force between them steeper or less steep. */
+static void begin_jog(events *e, double *before, double *size)
+{
+    double *const there = e->best.a;
+    memset(size, 0, e->problem.nv * sizeof *size);
+    accelerate(e, e->left.t, before);
+    accelerate(e, known_time(e, -e->way, e->start), there);
+    add_change(e, changes_count(e), there, before, size);
 }
 
 /* Moves a companion as if the switches that have passed had changed earlier or later, by a part of the rounding of
- * their time that differs from one to the next, so that jumps back and forth do not cancel it. */
-static void jog_times(events *e, const double *before)
+ * their time that differs from one to the next, and its sign from some to the next, so that changes back and forth do
+ * not cancel it. */
+static void jog_times(events *e, const double *before, double *size)
 {
-    double *const after = e->next.a;
-    const uint32_t salt = (uint32_t)(e->passed_times + 1) * 0x9e3779b9u;
-    const double part = 0.5 + (salt & 0xFFFF) * 0x1p-17, by = (salt >> 31 ? part : -part) * events_ulp(e->left.t);
-    accelerate(e, after);
-    for (size_t k = 0; k < e->problem.nv; k++)
-        if (isfinite(after[k] - before[k])) e->left.v[k] += (after[k] - before[k]) * by;
+    enum { ALIKE = 3 }; /* 2^ALIKE switches have one sign */
+    double *const after = e->next.a, *const there = e->best.a;
+    const uint32_t salt = (uint32_t)(e->passed_times + 1) * 0x9e3779b9u,
+                   turn = ((uint32_t)(e->passed_times >> ALIKE) + 1) * 0x9e3779b9u;
+    const double part = 0.5 + (salt & 0xFFFF) * 0x1p-17, by = (turn >> 31 ? part : -part) * events_ulp(e->left.t);
+    accelerate(e, e->left.t, after);
+    accelerate(e, known_time(e, e->way, e->leg_end), there);
+    add_change(e, 1, before, after, size);
+    add_change(e, changes_count(e), after, there, size);
+    for (size_t k = 0; k < e->problem.nv; k++) e->left.v[k] += size[k] * by;
 }
 
 /* Gives switches that change at known times their sides for the motion from `left` on; h: the size of the next step. */
 static motus_status pass_times(events *e, stepper *s, double h, motus_error *err)
 {
     int64_t passed = 0;
-    if (e->jog && e->stopped) accelerate(e, e->here.a);
+    if (e->jog && e->stopped) begin_jog(e, e->here.a, e->right.a);
     const motus_status status =
         e->rules.pass ? e->rules.pass(e->rules.ctx, e->way, e->left.t, e->left.x, e->left.v, &passed, err) : MOTUS_OK;
     if (status || (!passed && !e->stopped)) return status;
-    if (e->jog && e->stopped && passed) jog_times(e, e->here.a);
+    if (e->jog && e->stopped && passed) jog_times(e, e->here.a, e->right.a);
     e->passed_times += passed;
     e->stopped = e->left.valued = e->boxed = false;
     return jump(e, s, &e->left, h, err);
@@ -561,6 +596,7 @@ static motus_status adaptive_step(events *e, stepper *s, double until, int64_t m
     motus_status status = pass_times(e, s, stepper_next(s), err);
     if (status) return status;
     const double stop = next_stop(e, until);
+    if (e->rules.next && stepper_steps(s) == 0) stepper_expect_blur(s, stop);
     if (e->rules.functions == 0 && !e->clocks && !e->witness)
         status = plain_steps(e, s, (stepper_limit){most, stop}, why, err);
     else

@@ -166,6 +166,7 @@ struct events {
     double *arguments; /* the arguments of their operations at these points (core/rules.h) */
     int samples_room;
     bool clocks;          /* some rule is a clock */
+    double leg_end;       /* where all steps end, of which `until` is a part of the way */
     bool stopped;         /* the last step ended where switches change at a time that is known beforehand */
     int64_t passed_times; /* how many of these have changed */
     bool lingers;         /* a function stands at 0 or is open, at the start of the step or at its end */

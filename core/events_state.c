@@ -315,7 +315,7 @@ motus_status events_load(events *e, const stepper *s, const events_leg *leg, con
     pass p = {.way = PASS_READ, .in = in, .count = count};
     e->start = e->grid_start = leg->start;
     e->grid_step = leg->step;
-    e->until = leg->until;
+    e->until = e->leg_end = leg->until;
     e->way = leg->until < leg->start ? -1 : 1;
     e->limit = (events_limit){0};
     e->pace = INFINITY;

@@ -53,5 +53,7 @@ bool row_bounded_by_ends(const chosen *);
 bool row_orders(const chosen *);
 /* Tells whether adaptive steps follow the time scale of the motion and not an estimate of their error. */
 bool row_reversible_steps(const chosen *);
+/* Returns the root of the sum of the squares of the weights that stages have in a step; 0: they have none. */
+double row_weights(const chosen *);
 
 #endif

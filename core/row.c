@@ -42,6 +42,15 @@ bool row_bounded_by_ends(const chosen *method)
 bool row_orders(const chosen *method) { return method->row->orders; }
 bool row_reversible_steps(const chosen *method) { return method->row->density; }
 
+double row_weights(const chosen *method)
+{
+    const row *r = method->row;
+    double squares = 0;
+    for (int i = 0; r->family == RUNGE_KUTTA && i < r->tableau.stages; i++)
+        squares += r->tableau.b[i] * r->tableau.b[i];
+    return sqrt(squares);
+}
+
 /* Names --------------------------------------------------------------------------------------------------------- */
 
 static char lower(char c) { return c >= 'A' && c <= 'Z' ? (char)(c - 'A' + 'a') : c; }

@@ -32,6 +32,8 @@ void stepper_use_body(stepper *s, const stepper_body *body) { s->body = body; }
 
 /* Life ------------------------------------------------------------------------------------------------------------ */
 
+bool stepper_refuses(const chosen *c) { return row_adaptive(c) && !row_reversible_steps(c); }
+
 bool stepper_fixed(const problem *p, const work *plan)
 {
     return plan->affine || (!plan->solves_x && p->traits.linear_v && p->traits.constant_jv);

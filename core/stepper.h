@@ -37,6 +37,10 @@ motus_status stepper_start(stepper *, double t0, double h, const double *x, cons
  * time t0 + lost. */
 motus_status stepper_jump(stepper *, double t0, double lost, double h, const double *x, const double *v, motus_error *);
 
+/* At the start of a leg on which the force has one formula up to a time: takes into account from the first step on that
+ * times are rounded, if by that a tolerance would let steps crawl. */
+void stepper_expect_blur(stepper *, double until);
+
 /* Begins a new leg after an action as stepper_jump does, and keeps what reversible adaptive steps know of the lengths
  * of the motion (step/density.h). */
 motus_status stepper_go_on(stepper *, double t0, double lost, double h, const double *x, const double *v,

@@ -160,7 +160,9 @@ static motus_status whole_steps(stepper *s, int64_t steps, const stepper_body *b
         const bool paced = w->carried && (s->judge || !s->problem.traits.smooth);
         const int64_t due = paced ? STEPPER_PACE - w->n % STEPPER_PACE : INT64_MAX, most = room_of(s),
                       room = most < due ? most : due, chunk = end - w->n < room ? end - w->n : room;
-        int bad = take_steps(s, body, chunk);
+        if (s->left_steps != w->n) s->left = false;
+        int bad = w->rise == STEPPER_BLURS ? STEP_STALLED : take_steps(s, body, chunk);
+        if (bad == STEP_STALLED && stepper_blurred(s, body)) continue;
         if (!bad) bad = settle(s);
         if (bad) return recover(s, bad, err);
         if (!paced || w->n % STEPPER_PACE) continue;
@@ -280,8 +282,6 @@ void stepper_inspected(stepper *s, stepper_inspector inspector, void *ctx)
 {
     s->inspector = inspector, s->inspector_ctx = ctx, s->rest = 0;
 }
-
-bool stepper_refuses(const chosen *c) { return row_adaptive(c) && !row_reversible_steps(c); }
 
 /* Takes a step and shows it to the inspector, until the step stands. */
 static motus_status inspected_step(stepper *s, double until, bool *halt, motus_error *err)

@@ -1,6 +1,7 @@
 /* The stepper's struct and internal functions. Each of its files uses only those that stand before it in this list:
  * stepper_state.c (time, carry, observation, reports of failures), stepper_start.c (legs), stepper.c (life),
- * stepper_advance.c (steps, the way back from a failure), stepper_dense.c (dense output). */
+ * stepper_blur.c (steps too short for the times of stages), stepper_advance.c (steps, the way back from a failure),
+ * stepper_dense.c (dense output). */
 #ifndef CORE_STEPPER_PARTS_H
 #define CORE_STEPPER_PARTS_H
 
@@ -67,6 +68,12 @@ motus_status stepper_right_end(stepper *, motus_error *);
 
 /* stepper_start.c. Begins a leg at a state, without checks. */
 void stepper_begin(stepper *, double t0, double h, const double *x, const double *v);
+
+/* stepper_blur.c. Takes a step where error control finds none because times are rounded, and a snapshot after it.
+ * False: that is not why, and the caller goes back. While rounded times may still be why, the next step's `rise` is
+ * STEPPER_BLURS, a little less than CONTROL_RISE. */
+#define STEPPER_BLURS 2.25
+bool stepper_blurred(stepper *, const stepper_body *);
 
 /* stepper_advance.c. Repeats the last step, with a mark before it. */
 motus_status stepper_again(stepper *, motus_error *);

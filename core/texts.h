@@ -1,5 +1,6 @@
 /* The texts of step/ in their order, with every family. The includer first defines the macros and functions that work.h
  * lists. No operation on the state is written here, so all includers compute the same bits. */
+#define BLURS(w) ((w)->blur != NULL)
 #include "step/norm.h"
 #include "step/control.h"
 #include "step/density.h"

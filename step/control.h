@@ -144,6 +144,7 @@ static inline void control_settle(work *w, clock_mask good)
 {
     control_count(w, good);
     w->stalled = (w->t + w->next == w->t) | (ABS(w->next) < w->least);
+    if (BLURS(w)) w->stalled = w->stalled | NOT(good); /* every candidate has a blur of its own */
     w->refused = CHOOSE_WHERE(good, w->refused, w->refused + 1);
 }
 

@@ -6,6 +6,17 @@
  * sizes of velocities and first-order variables. What is allowed of velocities never falls below the rounding of the
  * positions over the step: at rest in an equilibrium nothing else is left of them.
  */
+/* Tells whether the rounding of the time counts. Only the library's own loops take such candidates. */
+#ifndef BLURS
+#define BLURS(w) false
+#endif
+/* The largest part of a variable's velocities that it takes. */
+static inline real norm_blur(const work *w, size_t from, size_t to)
+{
+    real most = {0};
+    for (size_t k = from; BLURS(w) && k < to; k++) most = LARGER(w->blur[k], most);
+    return most;
+}
 typedef struct norm {
     real size, way, off; /* the largest of a variable */
 } norm;
@@ -58,17 +69,18 @@ static inline clock control_norm(const work *w, const real *off_x, const real *o
             norm_take(&rate, v[k], dv[k], a[k], off_v[k]);
             none += (dv[k] - dv[k]) + (off_v[k] - off_v[k]);
         }
+        const clock blur = (clock){0} + norm_blur(w, from, to);
         clock floor = {0};
         if (from < FACT(w, nx)) {
             for (size_t k = from; k < to; k++) {
                 norm_take(&place, x[k], dx[k], v[k], off_x[k]);
                 none += (dx[k] - dx[k]) + (off_x[k] - off_x[k]);
             }
-            const clock share = norm_share(w, &place, floor);
+            const clock share = norm_share(w, &place, BLURS(w) ? ABS(w->h) * blur : floor);
             worst = LARGER(share, worst);
             floor = per_h * place.size;
         }
-        const clock share = norm_share(w, &rate, floor);
+        const clock share = norm_share(w, &rate, BLURS(w) ? floor + blur : floor);
         worst = LARGER(share, worst);
     }
     return worst + none;

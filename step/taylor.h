@@ -193,7 +193,8 @@ static inline real taylor_error(const work *w, const clock free)
             none += off - off; /* not a number, where it is not finite */
             speed = taylor_speed(w, k, free, speed);
         }
-        const real allowed = 10 * LARGER(FMA(w->relative, speed, w->absolute + TAYLOR_ZERO), EPSILON * speed);
+        const real least = EPSILON * speed + norm_blur(w, VARIABLE(w, g), VARIABLE(w, g + 1)),
+                   allowed = 10 * LARGER(FMA(w->relative, speed, w->absolute + TAYLOR_ZERO), least);
         const real share = PICK(apart == 0, TAYLOR_ZERO, apart / allowed) + none;
         error = PICK(share <= error, error, share);
     }

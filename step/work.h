@@ -164,6 +164,7 @@ typedef struct work {
     /* log2 of the error of the step before (density.h: whether control has begun; extrapolation.h: the line at which
      * the next step aims); of the most that the next may be longer */
     clock before, rise;
+    const real *blur; /* what the rounding of the time leaves of velocities (core/stepper_blur.c); NULL: nothing */
     clock shortest, longest; /* step so far, that to the end apart; 0 before the first */
     /* adaptive: the last step; of rows that carry stages that of theirs, < 0 · h: it was refused. extrapolation.h: the
      * line at which the last step ended */

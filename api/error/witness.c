@@ -478,8 +478,10 @@ static double object(witness *w, stepper *s, double whole)
         return 0;
     }
     if (w->probes || known(w, s)) return refuse(w, size);
-    if (!probe(w, s, size, w->sees)) /* shorter steps of the run may fail as well, and tell why */
+    if (!probe(w, s, size, w->sees)) { /* shorter steps of the run may fail as well, and tell why */
+        if (w->failed && w->kinked && !w->located && w->far) w->differs = from->t, w->objected = true;
         return w->failed && !w->kinked ? refuse(w, size) : 0;
+    }
     const double far = apart(w);
     const bool beyond = beyond_bars(w, BARS) && (!w->located || (far > FIRST && hides(w, s, MOSTLY)));
     if (far > REFUSED) {

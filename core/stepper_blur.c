@@ -1,0 +1,97 @@
+/* Steps that are so short that the rounding of their times hides how the force changes. See stepper_parts.h.
+ *
+ * The times of stages are rounded, so a force that changes by Δa over a step by the time alone is off by a part of it,
+ * and no velocity is known better than |Δa| times the rounding of the time. Where the motion begins out of rest, as on
+ * a ramp of 1e-4 at t = 1, that is more than a small tolerance allows, in steps of every size. Error control then finds
+ * no step; there, and nowhere else, candidates may be off by as much.
+ */
+#include "core/stepper_parts.h"
+
+#include <string.h>
+
+enum { TRIES = 96, SHORTEST = 1 << 20 };
+#define BLUR 32.0 /* roundings of the time: the weights of an error take those of several stages */
+
+/* Computes in a what a candidate of size h may be off; the other arrays are room. */
+static void find_blur(const stepper *s, double h, double *a, double *later, double *x, double *v)
+{
+    const problem *p = &s->problem;
+    const double t = s->work.t, far = fmax(fabs(t), fabs(t + h)), ulp = nextafter(far, INFINITY) - far;
+    bool known = true;
+    for (int end = 0; end < 2 && known; end++) {
+        memcpy(x, s->work.x, p->nx * sizeof *x);
+        memcpy(v, s->work.v, p->nv * sizeof *v);
+        memset(end ? later : a, 0, p->nv * sizeof *a);
+        known = !p->accel(p->ctx, end ? t + h : t, x, v, end ? later : a);
+    }
+    for (size_t k = 0; k < p->nv; k++) {
+        const double moved = fabs(later[k] - a[k]);
+        a[k] = known && isfinite(moved) ? BLUR * ulp * moved : 0;
+    }
+}
+
+void stepper_expect_blur(stepper *s, double until)
+{
+    work *w = &s->work;
+    const problem *p = &s->problem;
+    const double ulp = nextafter(fabs(w->t), INFINITY) - fabs(w->t), h = until - w->t;
+    const size_t whole[2] = {0, p->nv}, *const variable = p->variables ? p->variables : whole;
+    if (!p->traits.time || !stepper_refuses(&s->method) || !(fabs(h) * w->relative < BLUR * ulp)) return;
+    double *room = take(&s->allocator, 3 * w->nv + w->nx + 1, sizeof *room);
+    if (!room) return; /* then error control takes more steps */
+    double *const blur = room, *const later = room + w->nv;
+    find_blur(s, h, blur, later, later + 2 * w->nv, later + w->nv);
+    for (int g = 0; g < (p->variables ? p->variable_count : 1); g++) {
+        double off = 0, size = 0;
+        for (size_t k = variable[g]; k < variable[g + 1]; k++)
+            off = fmax(off, blur[k]), size = fmax(size, fabs(w->v[k]) + fabs(h * later[k]));
+        if (off > w->relative * size + w->absolute) w->rise = STEPPER_BLURS;
+    }
+    give(&s->allocator, room);
+}
+
+/* Returns the size that a candidate of size h has, since no step passes `until`. */
+static double within(const work *w, double h)
+{
+    const double left = (w->until - w->t) - w->lost;
+    if (fabs(h) >= fabs(left)) return left;
+    return 2 * fabs(h) > fabs(left) ? left / 2 : h;
+}
+
+/* Tries candidates from the size that error control would have tried first. */
+static bool try_all(stepper *s, const stepper_body *body, double *room)
+{
+    work *w = &s->work;
+    double *const a = room, *const later = a + w->nv, *const v = later + w->nv, *const x = v + w->nv;
+    const whole good = w->n;
+    const double ulp = nextafter(fabs(w->t), INFINITY) - fabs(w->t);
+    int bad = STEP_STALLED;
+    if (w->t + w->next == w->t) w->next = copysign(SHORTEST * ulp, w->until - w->t);
+    for (int k = 0; k < TRIES && bad == STEP_STALLED && w->n == good && w->t + w->next != w->t; k++) {
+        find_blur(s, within(w, w->next), a, later, x, v);
+        w->blur = a;
+        w->watch = s->watching ? &s->watch : NULL;
+        bad = body->run(w, 1);
+        w->watch = NULL;
+        w->blur = NULL;
+    }
+    if (fabs(w->h) * w->relative < BLUR * ulp) w->rise = STEPPER_BLURS;
+    return w->n > good && !s->body->check(w);
+}
+
+bool stepper_blurred(stepper *s, const stepper_body *body)
+{
+    work *w = &s->work;
+    const stepper_count now = {w->n, w->evaluations, w->iterations, w->refused};
+    if (!s->problem.traits.time || !stepper_refuses(&s->method)) return false;
+    double *room = take(&s->allocator, 3 * w->nv + w->nx + 1, sizeof *room);
+    if (!room) return false;
+    stepper_put(s, s->at, s->snapshot); /* a candidate that is refused changes the size of the next one */
+    const int bad = now.steps == w->n ? STEP_OK : s->body->run(w, now.steps - w->n);
+    bool done = !bad || (bad == STEP_STALLED && w->n == now.steps);
+    w->evaluations = now.evaluations, w->iterations = now.iterations, w->refused = now.refused;
+    done = done && stepper_mark(s, NULL) == MOTUS_OK && try_all(s, w->host ? stepper_best_body() : body, room);
+    if (done) s->at = stepper_get(s, s->snapshot); /* so that nothing repeats the step without this */
+    give(&s->allocator, room);
+    return done;
+}
