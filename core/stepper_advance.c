@@ -316,7 +316,8 @@ motus_status stepper_advance(stepper *s, stepper_limit limit, stepper_stop *why,
 {
     const bool looks = s->inspector && !s->watching && limit.steps > 0;
     bool halt = false;
-    const motus_status status = looks ? inspected(s, limit, &halt, err) : go(s, &limit, s->body, err);
+    motus_status status = s->asked && !looks && !s->watching && limit.steps == 1 ? stepper_mark(s, err) : MOTUS_OK;
+    if (!status) status = looks ? inspected(s, limit, &halt, err) : go(s, &limit, s->body, err);
     if (why) *why = status ? STOP_FAILED : s->arrived ? STOP_UNTIL : halt ? STOP_HALT : STOP_STEPS;
     return status;
 }

@@ -55,9 +55,10 @@ bool stepper_swing(stepper *s, double *most)
 
 motus_status stepper_sample(stepper *s, double t, double *x, double *v, motus_error *err)
 {
-    motus_status status =
-        marked(s, t) || (s->left && s->left_steps == stepper_steps(s) - 1) ? MOTUS_OK : stepper_again(s, err);
+    const bool again = !marked(s, t) && !(s->left && s->left_steps == stepper_steps(s) - 1);
+    motus_status status = again ? stepper_again(s, err) : MOTUS_OK;
     if (status) return status;
+    s->asked = s->asked || again;
     if (!marked(s, t)) {
         char a[DECIMAL_MAX], b[DECIMAL_MAX];
         fail(err, MOTUS_ARGUMENT, "the time %s lies before the last step of the run, which is at %s", decimal(t, a),

@@ -41,7 +41,8 @@ struct stepper {
     double left_t, left_lost;
     int64_t left_steps; /* stepper_steps at the left end */
     bool left, right;   /* which of the two ends are valid */
-    double *watched;    /* x, v before and after a watched step, then `most`; NULL until asked for */
+    bool asked;      /* a sample has had to take the latest step again: from then on steps taken singly leave a mark */
+    double *watched; /* x, v before and after a watched step, then `most`; NULL until asked for */
     watch watch;
     const stepper_watcher *watcher;
     bool watching;  /* the steps that are taken are watched */

@@ -381,6 +381,27 @@ that "run $oscillator takes less than 50 ms of a processor ($best ms)" test $bes
 cd "$place" || exit 1
 gives "-o" 0 "$motus" run osc.motus -o traj.csv
 that "... says what the file has" says "traj.csv has 201 rows, one at every step"
+# Rows between long steps: on straight lines from row to row no number is farther from the motion than a thousandth of its range.
+gives "a CSV of long steps" 0 "$motus" run "$root/models/comet.motus" --method taylor --error none -o "$place/smooth.csv"
+that "... says that it has rows between them" says "rows, one at every step, and between them what a smooth curve needs"
+"$motus" run "$root/models/comet.motus" --method taylor --error none -o "$place/steps.csv" --every "1 step" -q
+"$motus" run "$root/models/comet.motus" --method taylor --error none -o "$place/dense.csv" --every 0.01 -q
+numbers() { grep -v '^[#t]' "$place/$1.csv"; }
+straight() { # rows, and how far lines between them are from the dense ones, in thousandths of the range
+    awk -F, 'NR == FNR { n++; for (k = 1; k <= 5; k++) row[n, k] = $k; next }
+        { while (at < n - 1 && row[at + 1, 1] < $1) at++
+          if (at < 1) at = 1
+          for (k = 2; k <= 5; k++) { w = ($1 - row[at, 1]) / (row[at + 1, 1] - row[at, 1]); d = $k - (row[at, k] + w * (row[at + 1, k] - row[at, k]))
+              if (d < 0) d = -d; if (d > off[k]) off[k] = d; if (FNR == 1 || $k < low[k]) low[k] = $k; if (FNR == 1 || $k > high[k]) high[k] = $k } }
+        END { for (k = 2; k <= 5; k++) if (off[k] / (high[k] - low[k]) > most) most = off[k] / (high[k] - low[k]); printf "%.0f\n", 1000 * most }' <(numbers "$1") <(numbers dense)
+}
+that "... lines from row to row are a smooth curve" eval "[ $(straight smooth) -le 1 ]"
+that "... and from step to step none" eval "[ $(straight steps) -gt 5 ]"
+that "... the steps are among the rows" eval "[ \$(numbers steps | wc -l) = $(($(sed -n 's/.* in \([0-9]*\) steps.*/\1/p' "$out") + 1)) ] && [ -z \"\$(comm -23 <(numbers steps | sort) <(numbers smooth | sort))\" ]"
+gives "steps short enough" 0 "$motus" run "$root/models/comet.motus" --method dopri5 --tolerance 1e-13 --error none -o "$place/short.csv"
+that "... need few rows between them" eval "[ $(numbers short | wc -l) -lt $(($(sed -n 's/.* in \([0-9]*\) steps.*/\1/p' "$out") + 60)) ]"
+gives "a CSV of jumps" 0 "$motus" run "$root/models/bouncing-ball.motus" --method rk4 --step 0.01 --until 2 -o "$place/jumps.csv"
+that "... says so" says "rows, one at every step, and both sides of $(grep -c . <("$motus" run "$root/models/bouncing-ball.motus" --method rk4 --step 0.01 --until 2 -q --events - | grep '^bounce')) jumps"
 that "the first line is the command" eval "[ \"\$(head -n 1 traj.csv)\" = '# motus run osc.motus -o traj.csv' ]"
 that "the names" eval "[ \"\$(grep -v '^#' traj.csv | head -n 1)\" = \"t,x,x',energy\" ]"
 that "a row for every step and the start" eval "[ \$(grep -vc '^#' traj.csv) = 202 ]"

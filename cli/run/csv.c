@@ -142,6 +142,7 @@ motus_status csv_row(void *context, const double *values, motus_error *err)
 
 motus_status csv_jump(void *context, const double *before, const double *after, motus_error *err)
 {
+    ((csv *)context)->jumps++;
     const motus_status status = csv_row(context, before, err);
     return status ? status : csv_row(context, after, err);
 }

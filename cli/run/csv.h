@@ -13,6 +13,7 @@ typedef struct csv {
     bool errors; /* after them come the error of every column but t, and `significant` */
     char *line;  /* memory for one row */
     int64_t rows;
+    int64_t jumps; /* the rows have both sides of so many */
 } csv;
 
 /* Chooses the columns: those of --columns, or all. */

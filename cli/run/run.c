@@ -12,6 +12,7 @@
 #include "cli/run/deviation.h"
 #include "cli/run/figure.h"
 #include "cli/run/run.h"
+#include "cli/run/smooth.h"
 #include "cli/run/summary.h"
 #include "cli/run/walk.h"
 #include "cli/words/complain.h"
@@ -38,6 +39,7 @@ typedef struct job {
     run_archive *archive; /* NULL: the rows are not an archive */
     const char *from;     /* the archive that the run continues; NULL: the run begins */
     walk_observer rows;
+    smooth smooth; /* the rows between adaptive steps */
     deviation deviation;
     figure figure;
     size_t plane[2]; /* of the section */
@@ -121,14 +123,20 @@ static motus_bars bars_wanted(const options *o)
     return seen ? options_bars(o) : MOTUS_BARS_NONE;
 }
 
-static void plan_rows(job *j)
+static motus_status plan_rows(job *j, motus_error *err)
 {
+    const motus_run_statistics now = motus_run_now(j->run);
     j->rows = run_make_rows(j->options, &j->model, j->run);
     j->rows.columns = j->csv.columns;
     j->rows.count = j->csv.count;
     j->rows.take = csv_row;
     j->rows.jump = csv_jump;
     j->rows.context = &j->csv;
+    if (is_archive(j->options) || isnan(now.tolerance) || run_make_asks_rows(j->options, &j->model) ||
+        !figure_smooth(now.method))
+        return MOTUS_OK;
+    j->rows.parts = &j->smooth.parts;
+    return smooth_begin(&j->smooth, &j->model, j->run, err);
 }
 
 static motus_status open_archive(job *j, motus_error *err)
@@ -166,7 +174,7 @@ static motus_status begin(job *j, motus_error *err)
     const char *const names[FILES] = {is_archive(o) ? NULL : o->output, o->plot, o->save_state, o->events};
     for (int i = 0; !status && i < FILES; i++)
         if (names[i]) status = file_create(&j->files[i], names[i], err);
-    if (!status && o->output) plan_rows(j);
+    if (!status && o->output) status = plan_rows(j, err);
     if (!status && is_archive(o)) return open_archive(j, err);
     if (!status && o->output) status = csv_begin(&j->csv, &j->files[CSV], o, j->run, err);
     return status;
@@ -223,7 +231,9 @@ static motus_status finish(job *j, double seconds, motus_error *err)
                  j->went_on,
                  j->rows.stride,
                  j->rows.period,
-                 j->archive ? run_archive_rows(j->archive) : j->csv.rows};
+                 j->archive ? run_archive_rows(j->archive) : j->csv.rows,
+                 j->smooth.count > 0,
+                 j->csv.jumps};
     if (j->singular.status) s.estimate.reason = j->singular.message;
     if (!status && o->json)
         status = summary_json(&s, err);
@@ -300,6 +310,7 @@ static motus_status run(const options *o, const char *from, motus_error *err)
     figure_free(&j.figure);
     deviation_free(&j.deviation);
     csv_free(&j.csv);
+    smooth_free(&j.smooth);
     run_archive_close(j.archive);
     motus_run_destroy(j.run);
     load_free(&j.model);

@@ -43,6 +43,8 @@ motus_run_def run_make_asked(const options *);
  * the run unless the command is quiet. */
 motus_status run_make(const options *, load *, stop_progress *, motus_bars, motus_run_def *def, motus_run **,
                       motus_error *);
+/* Returns whether the options or the model say when rows are taken. */
+bool run_make_asks_rows(const options *, const load *);
 /* Returns when rows are taken: as the options say, or the model, or at every step. Either the stride or the period is
  * 0. */
 walk_observer run_make_rows(const options *, const load *, const motus_run *);

@@ -137,6 +137,11 @@ motus_status run_make(const options *o, load *m, stop_progress *progress, motus_
     return MOTUS_OK;
 }
 
+bool run_make_asks_rows(const options *o, const load *m)
+{
+    return o->every.time > 0 || o->every.steps > 0 || m->set.every_time > 0 || m->set.every_steps > 0;
+}
+
 walk_observer run_make_rows(const options *o, const load *m, const motus_run *run)
 {
     walk_observer w = {.errors = o->errors};

@@ -245,11 +245,13 @@ static void print_file(const summary *s, FILE *out)
     if (!o->output || strcmp(o->output, "-") == 0) return;
     fprintf(out, "\n%s has %" PRId64 " row%s, ", o->output, s->rows, s->rows == 1 ? "" : "s");
     if (s->period > 0)
-        fprintf(out, "one every %s\n", decimal(s->period, period));
+        fprintf(out, "one every %s", decimal(s->period, period));
     else if (s->stride > 1)
-        fprintf(out, "one every %" PRId64 " steps\n", s->stride);
+        fprintf(out, "one every %" PRId64 " steps", s->stride);
     else
-        fprintf(out, "one at every step\n");
+        fprintf(out, "one at every step%s", s->smooth ? ", and between them what a smooth curve needs" : "");
+    if (s->jumps > 0) fprintf(out, ", and both sides of %" PRId64 " jump%s", s->jumps, s->jumps == 1 ? "" : "s");
+    putc('\n', out);
 }
 
 motus_status summary_print(const summary *s, motus_error *err)

@@ -24,6 +24,8 @@ typedef struct summary {
     int64_t stride;              /* of the rows of the file, in steps, or else */
     double period;               /* in time */
     int64_t rows;                /* in the file */
+    bool smooth;                 /* rows between steps are among them */
+    int64_t jumps;               /* both sides of so many are among them, if the file is CSV */
 } summary;
 
 motus_status summary_print(const summary *, motus_error *);

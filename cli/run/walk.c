@@ -230,6 +230,27 @@ static int64_t next_stop(const walker *w)
     return next;
 }
 
+/* Gives the observers that divide steps the times within the latest step, which began at `from`. */
+static motus_status divide_all(walker *w, double from, motus_error *err)
+{
+    motus_status status = MOTUS_OK;
+    const double to = motus_run_time(w->run);
+    for (size_t i = 0; !status && i < w->count; i++) {
+        const walk_observer *o = &w->observer[i];
+        int64_t parts = 0;
+        if (o->parts && to != from) status = o->parts->find(o->parts->context, w->run, from, &parts, err);
+        for (int64_t k = 1; !status && k < parts; k++) {
+            const double t = from + (to - from) * ((double)k / (double)parts);
+            size_t n = 1;
+            if (o->errors)
+                status = sample_errors(w, i, t, err);
+            else if (!(status = sample_values(w, o, &t, &n, err)) && n > 0)
+                status = give_row(w, i, t, w->values, err);
+        }
+    }
+    return status;
+}
+
 static motus_status observe_due(walker *w, motus_error *err)
 {
     motus_status status = MOTUS_OK;
@@ -286,8 +307,10 @@ static motus_status advance(walker *w, int64_t most, bool periods, motus_error *
     const bool held = w->held;
     w->held = held || (w->keeper.keep && after); /* until the observers have had the times in this step */
     hold(w, false);
+    const double from = motus_run_time(w->run);
     if (!status && motus_run_steps(w->run) < next) status = step(w->run, next - motus_run_steps(w->run), err);
     if (!status && isnan(limit)) status = sample_all(w, motus_run_time(w->run), err);
+    if (!status && w->adapts) status = divide_all(w, from, err);
     w->held = held;
     hold(w, false);
     if (!status) status = observe_due(w, err);

@@ -6,6 +6,13 @@
 
 #include <stdbool.h>
 
+/* Finds into how many equal parts the latest step of a run, which began at `from`, is to be divided; at most 1: it is
+ * left whole. */
+typedef struct walk_parts {
+    motus_status (*find)(void *context, motus_run *, double from, int64_t *parts, motus_error *);
+    void *context;
+} walk_parts;
+
 /* `take` is called at the steps 0, stride, 2 stride, … and at the end; or, with `period` > 0, at the times start + k
  * period (between steps by dense output) and at the end. With `errors`, as many errors follow the values.
  *
@@ -15,6 +22,7 @@
 typedef struct walk_observer {
     int64_t stride;
     double period;
+    walk_parts *parts; /* NULL, or, with stride 1, `take` is called at the ends of the parts of adaptive steps too */
     const size_t *columns;
     size_t count;
     bool errors;
