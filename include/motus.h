@@ -1558,7 +1558,8 @@ typedef struct motus_converge_row {
     int adaptive, between_due;
     double power, power_error, power_due, between, between_error;
     /* 1: too few errors lie between the coarsest steps and round-off for the order, or for one of the three statements
-     * of an adaptive method, or they are no power: so the row has neither passed nor failed. */
+     * of an adaptive method, or they are no power, or the force is not smooth and leaves only a lower order, which they
+     * keep: so the row has neither passed nor failed. */
     int uncertain;
 } motus_converge_row;
 typedef struct motus_convergence {

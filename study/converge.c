@@ -286,10 +286,10 @@ static bool falls(const converge *c, const motus_converge_row *row, const fit_or
 
 /* Returns whether steady slopes over some octaves are clearly below the order. Otherwise round-off came before they
  * settled, or they have not settled yet, and the row neither passes nor fails. For an order that a double cannot show,
- * the highest that it can show is due. */
-static bool refutes(const fit_order_result *fit, int declared)
+ * the highest that it can show is due; where the force allows less, the order that it leaves. */
+static bool refutes(const converge *c, const fit_order_result *fit, int declared)
 {
-    const double due = declared < SHOWN_ORDER ? declared : SHOWN_ORDER;
+    const double most = c->allowed > 0 ? fmin(c->allowed, SHOWN_ORDER) : SHOWN_ORDER, due = fmin(declared, most);
     return fit->verdict == FIT_SLOPE && fit->octaves >= LOST_OCTAVES &&
            fit->observed + 2 * fit->standard_error < due - fmax(LOST, LOST_PART * due);
 }
@@ -316,7 +316,7 @@ static void certify(const converge *c, motus_converge_row *row, const fit_order_
         snprintf(text, size, "observed %.2f, down to round-off, declared %d", row->observed, row->declared);
         return;
     }
-    row->uncertain = !row->passed && allowed && !refutes(fit, row->declared);
+    row->uncertain = !row->passed && !refutes(c, fit, row->declared);
     const char *const colon = allowed ? "" : ": ", *const why = allowed ? "" : c->why;
     const char *const uncertain = row->uncertain ? " (not certified)" : "";
     switch (fit->verdict) {

@@ -897,7 +897,7 @@ static void rule_21_errors(void **unused)
                   "one instant, s = "},
                  {"x'' = 6 x^2", "rk4", " s = "},
                  {"x'' = -x + interp(s, 0, 1, [0, 1, 2])", "dop853", "at s = 2 s goes beyond 2"},
-                          {"x'' = -1e10*(x' - cos(s))", "dopri5", " at s = "}};
+                 {"x'' = -1e10*(x' - cos(s))", "dopri5", " at s = "}};
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         char text[400];
         motus_status status;

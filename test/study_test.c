@@ -649,7 +649,9 @@ static void just_the_order_allowed(void **state)
         def.method_count = 2;
         motus_convergence *c = converge(s, &def);
         assert_true(c->rows[0]->passed && fabs(c->rows[0]->observed - 2) < 0.4);
+        /* order 4 is not shown, and not denied: the errors keep the order that the force leaves */
         assert_false(c->rows[1]->passed);
+        assert_true(c->rows[1]->uncertain && c->rows[1]->status == MOTUS_OK && c->passed);
         motus_convergence_destroy(c);
         motus_system_destroy(s);
     }
@@ -727,7 +729,7 @@ static void the_last_twentieth_counts(void **state)
     motus_study_def def = study_of(methods, 2, NAN, NAN);
     motus_convergence *c = converge(s, &def);
     for (size_t k = 0; k < 2; k++) assert_non_null(strstr(c->rows[k]->certificate, "the force jumps at t = 9.8"));
-    assert_true(!c->passed);
+    for (size_t k = 0; k < 2; k++) assert_true(!c->rows[k]->passed && c->rows[k]->uncertain);
     motus_convergence_destroy(c);
     motus_system_destroy(s);
 }

@@ -144,7 +144,7 @@ static motus_status print_tables(const studies *s, const void *result, motus_err
     for (size_t k = 0; k < c->row_count; k++) uncertain |= c->rows[k]->uncertain != 0;
     if (uncertain)
         puts("\nnot certified: too few errors lie between the coarsest steps or tolerances and round-off to find every "
-             "slope, or the steps are not small enough");
+             "slope, or the steps are not small enough, or the force is not smooth and leaves only a lower order");
     if (s->options->points) puts("\nin brackets: not in the fit, because instability or round-off dominates");
     for (size_t k = 0; s->options->points && k < c->row_count && good; k++) {
         const motus_converge_row *r = c->rows[k];
