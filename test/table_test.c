@@ -518,6 +518,33 @@ static void boundaries(void **state)
     motus_system_destroy(s);
 }
 
+/* A boundary line may be a spline, whose velocity changes though no acceleration moves it: the motion is that of the
+ * spline as a force, and the witness objects to nothing. */
+static void curved_boundaries(void **state)
+{
+    (void)state;
+    static const char *const texts[] = {
+        "x[1]'' = x[0] - x[1]\nx[0] = spline(t, 0, 1, [0, 1, -1, 0.5], hold)\nx[1](0) = 0; x[1]'(0) = 0\n",
+        "x'' = spline(t, 0, 1, [0, 1, -1, 0.5], hold) - x\nx(0) = 0; x'(0) = 0\n"};
+    double value[2], error[2];
+    for (int k = 0; k < 2; k++) {
+        motus_system *s = given_text(texts[k]);
+        motus_run_def def = motus_default_run();
+        motus_error err = motus_default_error();
+        motus_run *r = NULL;
+        const size_t position = 1;
+        def.method = "dop853";
+        def.until = 4;
+        def.error = MOTUS_BARS_CHEAP;
+        must(motus_run_create(s, &def, &r, &err), &err, texts[k]);
+        must(motus_run_finish(r, &err), &err, texts[k]);
+        must(motus_run_errors(r, &position, 1, &value[k], &error[k], &err), &err, texts[k]);
+        motus_run_destroy(r);
+        motus_system_destroy(s);
+    }
+    assert_true(fabs(value[0] - value[1]) <= error[0] + error[1] && error[0] < 1e-8);
+}
+
 /* motus check says which order steps of one size keep: that which the table leaves, not that of the method. */
 static void explained(void **state)
 {
@@ -557,6 +584,7 @@ int main(void)
         cmocka_unit_test(bad_tables),
         cmocka_unit_test(peaks_between_steps),
         cmocka_unit_test(boundaries),
+        cmocka_unit_test(curved_boundaries),
         cmocka_unit_test(explained),
     };
     open_shared_cache();

@@ -192,7 +192,8 @@ static void note_beside(witness *w)
 bool look_follow(witness *w, stepper *s, const state *from, const state *to, uint32_t way, double *less)
 {
     if (!integrate(w, s, from, to->t - from->t, way, less)) return false;
-    for (size_t k = 0; k < w->typed->problem.nv; k++) less[k] -= to->v[look_place(w, k)] - from->v[look_place(w, k)];
+    for (size_t k = 0; k < w->typed->problem.nv; k++)
+        less[k] = w->driven[k] ? 0 : less[k] - (to->v[look_place(w, k)] - from->v[look_place(w, k)]);
     return true;
 }
 

@@ -45,6 +45,7 @@ struct witness {
     double *allowed;   /* of every velocity: what a step may lose */
     double *rounded;   /* of every velocity: what rounding takes, a part of the largest it has been */
     double *rounded_x; /* of every position: what rounding takes, a part of the largest it has been */
+    double *driven;    /* of every typed velocity: 1 if a boundary line writes it */
     double *dx, *dv;   /* the distance of the probe from the step */
     double share[WAYS + MORE];
     /* of a run with located switches: what the force does along each way, less what has happened */

@@ -52,13 +52,24 @@ enum {
 
 /* ---- life ---- */
 
+/* Finds the velocities of driven boundary cells, which no acceleration moves. */
+static void find_driven(witness *w, double t)
+{
+    const problem *const p = &w->typed->problem;
+    double *const x = w->at[POINT].x, *const v = w->driven;
+    for (size_t k = 0; k < p->nx; k++) x[k] = NAN;
+    for (size_t k = 0; k < p->nv; k++) v[k] = NAN;
+    if (p->refresh) p->refresh(p->ctx, t, x, v);
+    for (size_t k = 0; k < p->nv; k++) v[k] = !isnan(v[k]);
+}
+
 static witness *make(const motus_run *r, const differences *seen)
 {
     const problem *const p = &r->system->problem;
     const motus_system *const s = r->home ? r->home : r->system;
     const bool ways = r->home && p->nv <= WIDTH;
     const size_t nx = p->nx + 1, nv = p->nv + 1,
-                 numbers = STATES * (nx + nv) + 16 * nv + 4 * (nx + nv) + (ways ? (WAYS + MORE) * nv : 0);
+                 numbers = STATES * (nx + nv) + 17 * nv + 4 * (nx + nv) + (ways ? (WAYS + MORE) * nv : 0);
     witness *w = take(&r->allocator, 1, sizeof *w + numbers * sizeof(double));
     if (!w) return NULL;
     *w = (witness){
@@ -78,8 +89,9 @@ static witness *make(const motus_run *r, const differences *seen)
     for (size_t k = 0; k < STATES; k++, at += nx + nv) w->at[k] = (state){.x = at, .v = at + nx};
     double **const arrays[] = {&w->a,  &w->v,    &w->most,  &w->missing, &w->allowed,   &w->rounded,
                                &w->dv, &w->room, &w->scale, &w->weight,  &w->other_way, &w->rounded_x,
-                               &w->dx, &w->lack, &w->speed, &w->felt,    &w->ways};
+                               &w->dx, &w->lack, &w->speed, &w->felt,    &w->driven,    &w->ways};
     for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++, at += nv) *arrays[k] = at;
+    find_driven(w, r->timing.t0);
     return w;
 }
 
