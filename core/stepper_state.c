@@ -236,7 +236,7 @@ bool stepper_undefined(stepper *s, motus_error *err)
         char time[DECIMAL_MAX], name[MOTUS_NAME_MAX];
         const double ended = err ? err->time : 0;
         stepper_name(s, true, k, name);
-        fail(err, MOTUS_DIVERGED, "the motion is undefined at the start, t = %s: %s has no finite rate of change there",
+        fail(err, MOTUS_DIVERGED, "the motion is undefined at t = %s: %s has no finite rate of change there",
              decimal_time(time_now(w), time_now(w), time), name);
         hint(err, "begin elsewhere, or look for a division by zero in the equation");
         if (!err) return true;

@@ -12,10 +12,10 @@
 typedef struct timed {
     size_t which; /* its switch */
     operation op;
-    uint16_t points;     /* FIND: the array of the points */
-    size_t count;        /* FIND: how many they are */
-    double from, rate;   /* the argument is from + rate t */
-    const double *first; /* FIND: the points, in the pool */
+    uint16_t points;   /* FIND: the array of the table of points */
+    size_t count;      /* FIND: how many they are */
+    double from, rate; /* the argument is from + rate t */
+    const double *at;  /* FIND: that table, in the pool */
 } timed;
 
 static const table *table_of(const model *m, node of)
@@ -61,7 +61,7 @@ bool sides_find_timed(sides *s, model *m)
         if (n.op == OP_FIND) {
             const table *t = table_of(m, n.b);
             const extent *over = m->arrays[t->points].over;
-            one.points = t->points, one.count = (size_t)(over->last[0] - over->first[0] + 1);
+            one.points = t->array, one.count = (size_t)(over->last[0] - over->first[0] + 1);
         }
         for (size_t i = 0; i < switches_cells(w, k); i++) {
             one.which = w->first[k] + i;
@@ -91,12 +91,12 @@ void sides_bind_timed(sides *s)
     if (!s->timed_count) return;
     for (size_t k = 0; k < 2 * s->switches->count; k++) s->line[k] = 0; /* a cell without a switch never changes */
     for (size_t i = 0; i < s->timed_count; i++)
-        if (s->timed[i].op == OP_FIND) s->timed[i].first = s->model->pool + s->model->arrays[s->timed[i].points].base;
+        if (s->timed[i].op == OP_FIND) s->timed[i].at = s->model->pool + s->model->arrays[s->timed[i].points].base;
     if (!s->nested) measure(s, NULL);
 }
 
 /* Returns the value of the argument at which side k begins, from below: a point of a table, or a whole number. */
-static double value_of(const timed *one, double k) { return one->op == OP_FIND ? one->first[(size_t)k - 1] : k; }
+static double value_of(const timed *one, double k) { return one->op == OP_FIND ? table_point(one->at, (size_t)k) : k; }
 
 static double time_of(const timed *one, double value) { return (value - one->from) / one->rate; }
 

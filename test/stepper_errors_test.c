@@ -123,8 +123,8 @@ static void an_undefined_start_is_named(void **state)
         stepper *s = begin(&p, row_card(k)->name, 3, 0.25, &zero, &one);
         const motus_status status = stepper_advance(s, (stepper_limit){5, NAN}, NULL, &err);
         if (status && stepper_steps(s) == 0) {
-            assert_string_equal(
-                err.message, "the motion is undefined at the start, t = 3: y[1]' has no finite rate of change there");
+            assert_string_equal(err.message,
+                                "the motion is undefined at t = 3: y[1]' has no finite rate of change there");
             assert_null(strstr(err.hint, "smaller step"));
             assert_true(stepper_time(s) == 3);
             said++;

@@ -311,6 +311,83 @@ static void ends_are_touched(void **state)
         }
 }
 
+/* A run may end, or begin, at an end of a table: the same point as decimals write it, although the doubles differ, and
+ * those of the companion differ otherwise. The tables are straight, so the motion is (u - u0)^3/(6 rate^2). */
+static void ends_are_reached(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *lines;
+        double from, until, rate;
+    } cases[] = {{"interp(t, 0, 0.02, [0, 0.02, 0.04, 0.06])", 0, 0.06, 1},
+                 {"spline(t, 0, 0.02, [0, 0.02, 0.04, 0.06])", 0, 0.06, 1},
+                 {"interp(t, -0.6, 0.2, [-0.6, -0.4, -0.2, 0])", -0.6, 0, 1},
+                 {"interp(t, 0.7, 0.1, [0.7, 0.8, 0.9])", 0.7, 0.9, 1},
+                 {"interp(v t, [0, 50, 100], [0, 50, 100])\nv = 80/3.6", 0, 4.5, 80 / 3.6},
+                 {"interp(v t, [7, 50, 100], [7, 50, 100])\nv = 80/3.6", 0.315, 4.5, 80 / 3.6},
+                 {"spline(s, 0.1, 0.3, [0.1, 0.4, 0.7])\ns' = 1\ns(0.1) = 0.1", 0.1, 0.7, 1}};
+    const char *const methods[] = {"dop853", "taylor", "rk4", "rk4", "verlet"},
+                      *machines[] = {"interpreter", "compiled"};
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++)
+        for (int m = 0; m < 5; m++)
+            for (int back = 0; back < (strstr(cases[k].lines, "s'") ? 1 : 2); back++) {
+                const double from = back ? cases[k].until : cases[k].from,
+                             until = back ? cases[k].from : cases[k].until;
+                const double rate = cases[k].rate, u0 = rate * from, u = rate * until, d = until - from;
+                char text[400];
+                snprintf(text, sizeof text, "x'' = %s\nx(%.17g) = 0; x'(%.17g) = 0\n", cases[k].lines, from, from);
+                motus_system *s = given_text(text);
+                motus_error err = motus_default_error();
+                const size_t column = 1;
+                double got[2], error[2];
+                for (int on = 0; on < 2; on++) {
+                    motus_run_def def = motus_default_run();
+                    motus_run *r = NULL;
+                    def.method = methods[m];
+                    def.machine = machines[on];
+                    if (m > 1) def.step = (cases[k].until - cases[k].from) / 120;
+                    if (m == 3) def.switches = MOTUS_SWITCHES_LOCATE;
+                    def.until = until;
+                    def.error = MOTUS_BARS_CHEAP;
+                    must(motus_run_create(s, &def, &r, &err), &err, text);
+                    must(motus_run_finish(r, &err), &err, text);
+                    if (motus_run_errors(r, &column, 1, got + on, error + on, &err) || !isfinite(error[on]))
+                        fail_msg("%s by %s: %s", text, methods[m], err.message);
+                    motus_run_destroy(r);
+                }
+                assert_memory_equal(got, got + 1, sizeof *got);
+                assert_memory_equal(error, error + 1, sizeof *error);
+                const double truth = u0 * d * d / 2 + (u - u0) * d * d / 6;
+                if (m < 4 && fabs(*got - truth) > *error + 1e-15 * fabs(truth))
+                    fail_msg("%s by %s: %.17g, not %.17g", text, methods[m], *got, truth);
+                motus_system_destroy(s);
+            }
+}
+
+/* A little farther is outside. */
+static void ends_end(void **state)
+{
+    (void)state;
+    const double ends[] = {-1e-13, 0.06 * (1 + 1e-14)};
+    const char *const points[] = {"0, 0.02", "[0, 0.02, 0.04, 0.06]"};
+    for (int k = 0; k < 4; k++) {
+        char text[200];
+        snprintf(text, sizeof text, "x'' = interp(t, %s, [0, 1, 0, 2])\nx(0.03) = 0; x'(0.03) = 0\n", points[k / 2]);
+        motus_system *s = given_text(text);
+        motus_run_def def = motus_default_run();
+        motus_error err = motus_default_error();
+        motus_run *r = NULL;
+        def.until = ends[k % 2];
+        motus_status status = motus_run_create(s, &def, &r, &err);
+        if (!status) status = motus_run_finish(r, &err);
+        assert_true(status != MOTUS_OK);
+        if (!strstr(err.message, k % 2 ? "t goes beyond 0.06, the last" : "t goes before 0, the first"))
+            fail_msg("%s: %s", text, err.message);
+        motus_run_destroy(r);
+        motus_system_destroy(s);
+    }
+}
+
 /* Steps of one size ask for the entry after the last one at the end of a run; the message names that time and what
  * helps. */
 static void an_entry_after_the_last(void **state)
@@ -578,6 +655,8 @@ int main(void)
         cmocka_unit_test(backward),
         cmocka_unit_test(set),
         cmocka_unit_test(ends_are_touched),
+        cmocka_unit_test(ends_are_reached),
+        cmocka_unit_test(ends_end),
         cmocka_unit_test(outside),
         cmocka_unit_test(observers_outside),
         cmocka_unit_test(an_entry_after_the_last),

@@ -7,6 +7,7 @@
 #include "api/motion/run_events.h"
 #include "api/system/system.h"
 #include "api/system/vector.h"
+#include "api/why/diagnosis.h"
 
 #include <math.h>
 #include <string.h>
@@ -210,9 +211,12 @@ static motus_status begin_at(motus_run *r, bool observed, motus_error *err)
 }
 
 /* Turns an error of a companion into a reason for no bars. Only lack of memory and cancellation also end the run. */
-static motus_status judge(motus_run *r, motus_status status, const motus_error *theirs, motus_error *err)
+static motus_status judge(motus_run *r, motus_status status, motus_error *theirs, motus_error *err)
 {
+    companion *const c = &r->bars->half;
     if (status == MOTUS_OK) return MOTUS_OK;
+    if (c->system && c->system->model && c->system->model->table_count) /* it may have left one */
+        diagnosis_add(&(diagnosed){c->system, NULL, r->diagnosed.leads}, c->stepper, theirs);
     bars_give_up(r, "a companion run failed: %s", theirs->message);
     if (status == MOTUS_MEMORY) return fail(err, status, "%s", theirs->message);
     if (status != MOTUS_CANCELLED) return MOTUS_OK;

@@ -266,7 +266,7 @@ static bool infinite(judge *j)
     return true;
 }
 
-/* Reports a force that has no value at the start: which term has none, and what may be written in its place. */
+/* Reports a force that has no value where a leg begins: which term has none, and what may be written in its place. */
 static bool undefined_start(judge *j)
 {
     const evidence *e = &j->e;
@@ -284,10 +284,10 @@ static bool undefined_start(judge *j)
         hint(j->err, "write the value that it has there, `if(%s == 0, %s, %s)`", u.divisor, decimal(u.limit, limit),
              u.term);
     else if (found && u.both)
-        hint(j->err, "write the value that it is to have there, as by `if(%s == 0, …, %s)`; or begin elsewhere",
-             u.divisor, u.term);
+        hint(j->err, "write the value that it is to have there, as by `if(%s == 0, …, %s)`%s", u.divisor, u.term,
+             e->begin == s->start ? "; or begin elsewhere" : "");
     else
-        hint(j->err, "begin elsewhere, or write what the force is to be there");
+        hint(j->err, "%swrite what the force is to be there", e->begin == s->start ? "begin elsewhere, or " : "");
     return true;
 }
 

@@ -199,9 +199,10 @@ value lower_table(lowering *l, const tree *t)
 
     const tree *last = t->item[uniform ? 2 : 1];
     const char *name = kept_text(l, t->at.text, t->item[1]->at.from, last->at.to);
-    table rows = {.kind = TABLE_POINTS, .list = points.array, .points = points.array, .name = name}, of = rows;
+    table rows = {.kind = TABLE_POINTS, .list = points.array, .points = points.array, .name = name};
+    rows.hold = hold, rows.uniform = uniform;
+    table of = rows;
     of.kind = t->operation == CALL_SPLINE ? TABLE_SPLINE : TABLE_LINEAR;
-    of.hold = hold;
     of.name = kept_text(l, t->at.text, t->item[1]->at.from, t->at.to - 1);
     of.values = kept_text(l, t->at.text, values->at.from, values->at.to);
     const char *before = t->operation == CALL_SPLINE ? "spline(" : "interp(";

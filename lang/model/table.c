@@ -31,13 +31,23 @@ static void fill_list(double *to, const double *list, size_t n)
     memcpy(to + 1, list, n * sizeof *to);
 }
 
-static void fill_points(double *to, const double *x, size_t n)
+/* Returns how far a table reaches beyond an end. The last point of a uniform grid is rounded as the first one is. */
+static double reach(double end, double other)
 {
+    const double size = fmax(fabs(end), fabs(other));
+    return TABLE_BEYOND * (nextafter(size, INFINITY) - size);
+}
+
+static void fill_points(double *to, const table *t, const double *x, size_t n)
+{
+    const double first = t->hold ? x[0] : x[0] - reach(x[0], 0);
+    const double last = t->hold ? x[n - 1] : x[n - 1] + reach(x[n - 1], t->uniform ? x[0] : 0);
     for (size_t k = 0; k <= n; k++, to += POINT_COLUMNS) {
         const size_t from = k == 0 ? 0 : k == n ? n - 2 : k - 1;
-        const double width = x[from + 1] - x[from], slope = within(width, 1 / width);
+        const double begins = from == 0 ? first : x[from], ends = from == n - 2 ? last : x[from + 1];
+        const double width = ends - begins, slope = within(x[from + 1] - x[from], 1 / width);
         to[BASE] = k ? (double)k : 1;
-        to[POINT] = x[k ? k - 1 : 0];
+        to[POINT] = k == n ? last : begins;
         to[WIDTH] = slope;
         to[BEND] = k == 0 ? -slope : k == n ? slope : 0;
     }
@@ -101,18 +111,21 @@ void table_fill(const model *m, const table *t)
     double *const to = m->pool + m->arrays[t->array].base + 1;
     switch (t->kind) {
     case TABLE_LIST: fill_list(to, y, n); return;
-    case TABLE_POINTS: fill_points(to, x, n); return;
+    case TABLE_POINTS: fill_points(to, t, x, n); return;
     case TABLE_LINEAR: fill_linear(to, x, y, n); break;
     case TABLE_SPLINE: fill_spline(to, x, y, n); break;
     }
     fill_ends(to, t, x, y, n);
 }
 
+double table_point(const double *at, size_t k) { return at[1 + k * POINT_COLUMNS + POINT]; }
+
 /* Tables ----------------------------------------------------------------------------------------------------------- */
 
 static bool same_table(const table *a, const table *b)
 {
-    return a->kind == b->kind && a->hold == b->hold && a->list == b->list && a->points == b->points;
+    return a->kind == b->kind && a->hold == b->hold && a->uniform == b->uniform && a->list == b->list &&
+           a->points == b->points;
 }
 
 bool table_make(model *m, const table *want, uint16_t *array)

@@ -203,7 +203,7 @@ static void outside(model *m, const graph_node *entry, double now, const twofold
 {
     const graph *g = m->graph;
     const table *const t = table_at(m, entry->b);
-    char u[UNDEFINED_TEXT / 4], end[DECIMAL_MAX], other[DECIMAL_MAX];
+    char u[UNDEFINED_TEXT / 4] = "", end[DECIMAL_MAX], other[DECIMAL_MAX];
     if (!t) return;
     const array *const points = &m->arrays[t->points];
     const int64_t first = points->over->first[0], last = points->over->last[0];
@@ -219,16 +219,18 @@ static void outside(model *m, const graph_node *entry, double now, const twofold
         const graph_node *n = graph_at(g, row);
         row = graph_at(g, n->a)->op == OP_CONST ? n->b : n->a;
     }
-    if (graph_at(g, row)->op != OP_FIND) return;
+    const bool finds = graph_at(g, row)->op == OP_FIND; /* else it is held as a side */
+    if (!finds && graph_at(g, row)->op != OP_LOAD) return;
     const bool before = value[g->place[row]].high == 0;
-    const node argument = graph_at(g, row)->a;
-    const bool moves = graph_deps(g, argument) & (DEP_TIME | DEP_STATE);
-    model_print(m, argument, u, sizeof u);
+    const node argument = finds ? graph_at(g, row)->a : row;
+    const bool moves = !finds || graph_deps(g, argument) & (DEP_TIME | DEP_STATE);
+    if (finds) model_print(m, argument, u, sizeof u);
+    const char *const the = finds && moves ? "" : finds ? "the argument " : "the argument";
     const double point = number[before ? 0 : last - first];
     if (graph_at(g, argument)->op == OP_TIME) out->time = point;
-    snprintf(out->outside, sizeof out->outside, "%s%s %s %s %s, the %s point of the table %s",
-             moves ? "" : "the argument ", u, moves ? "goes" : "is", before ? "before" : "beyond", decimal(point, end),
-             before ? "first" : "last", t->values);
+    snprintf(out->outside, sizeof out->outside, "%s%s %s %s %s, the %s point of the table %s", the, u,
+             moves ? "goes" : "is", before ? "before" : "beyond", decimal(point, end), before ? "first" : "last",
+             t->values);
     if (!moves)
         snprintf(out->points, sizeof out->points, "%s to %s", decimal(number[0], other),
                  decimal(number[last - first], end));

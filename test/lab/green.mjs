@@ -80,7 +80,7 @@ await attempt('where no green line is, it says why', async () => {
   judge('before it sticks there is one', await said() === '' && await green(page) > 200, await said());
   await page.evaluate(() => { location.hash = `#v=1&m=${encodeURIComponent("x'' = 1/x\nx(0) = 0\nx'(0) = 1\nstep 0.5\nuntil 2")}&a=rk4,explicit-euler`; });
   await settled(page, 500);
-  same('what is undefined at its start says that, once', await said(), 'RK4 and explicit Euler: the motion is undefined at the start, t = 0: x\' has no finite rate of change there; 1/x is a division by 0 there, since x is 0.');
+  same('what is undefined at its start says that, once', await said(), 'RK4 and explicit Euler: the motion is undefined at t = 0: x\' has no finite rate of change there; 1/x is a division by 0 there, since x is 0.');
   judge('… and stops there', /RK4 stops at t = 0:/.test(await page.locator('#stage-figure figcaption').textContent()), await page.locator('#stage-figure figcaption').textContent());
   await clean('no green line', page, /readback/);
 });
