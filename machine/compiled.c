@@ -21,7 +21,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { OBJECTS_MAX = 96, MAKINGS_MAX = 8, NOTE_MAX = 400 };
+enum { OBJECTS_MAX = 96, MAKINGS_MAX = 8, NOTE_MAX = 400, FEW_FUNCTIONS = 8 };
 
 #include "machine/text/host.h"
 
@@ -42,6 +42,9 @@ typedef struct object {
     void (*bind)(const double *, const int64_t *, double *); /* computes u from the pool */
     int (*fits)(const double *u);                            /* tells whether it was compiled for such numbers */
     void (*accel)(const compiled_host *, double t, double *x, double *v, double *a); /* NULL: Taylor series alone */
+    /* what compiled_rules computes; NULL: the text does not have it */
+    void (*rules)(const compiled_host *, int number, double t, double *x, double *v, double *a, const double *dx,
+                  const double *dv, double *out);
     void *handle;
     bool longer; /* there is a longer text */
     stepper_body body;
@@ -62,7 +65,8 @@ struct compiled {
     object objects[OBJECTS_MAX];
     int count;
     making makings[MAKINGS_MAX];
-    program *force, *boundary, *series, *boundary_series, *least;
+    const object *ruled; /* has the model's rules, for its present numbers; NULL: none */
+    program *force, *boundary, *series, *boundary_series, *of_rules[RULED_NUMBERS];
     locality locality;
     const tiling *tiling; /* where the outer indices can be divided; else NULL */
     double *pairs;
@@ -141,6 +145,7 @@ void compiled_close(compiled *c)
     if (c) {
         parallel_pool_destroy(c->thread_pool);
         c->thread_pool = NULL;
+        c->ruled = NULL;
         c->count = 0;
     }
 }
@@ -164,13 +169,17 @@ static bool write_text(compiled *c, const chosen *chosen, emit *e)
                longer = row_adaptive(chosen) && compose_small(m);
     const bool bounds = bounded && (chosen->written || !longer); /* the interpreter's do for a first text */
     e->longer = bounded && longer;
-    if (bounds && !c->least) {
+    /* where functions are few they are compiled with all that events ask of them */
+    const bool rules =
+        bounds && m->rule_functions <= FEW_FUNCTIONS && compose_small(m) && compose_bounds_are_structure(m);
+    if (bounds && !c->of_rules[RULED_LEAST]) {
+        output *of[RULED_NUMBERS];
         size_t functions;
-        const output *least = least_sizes(m, &functions);
-        c->least = least ? program_create(m->graph, least, functions) : NULL;
+        for (int k = 0; ruled_outputs(m, of, &functions) && k < RULED_NUMBERS; k++)
+            if (rules || k == RULED_LEAST) c->of_rules[k] = program_create(m->graph, of[k], functions);
     }
     if (m->arena->failed) return false;
-    composed_program programs[5];
+    composed_program programs[4 + RULED_NUMBERS];
     size_t count = 0;
     if (!expands)
         programs[count++] =
@@ -181,7 +190,12 @@ static bool write_text(compiled *c, const chosen *chosen, emit *e)
     if (expands && m->driven)
         programs[count++] =
             (composed_program){.program = c->boundary_series, .name = "compiled_boundary_series", .series = true};
-    if (bounds) programs[count++] = (composed_program){.program = c->least, .name = "compiled_least", .along = true};
+    static const char *const names[RULED_NUMBERS] = {"compiled_values", "compiled_rates", "compiled_rounding",
+                                                     "compiled_least", "compiled_least_rates"};
+    for (int k = 0; k < RULED_NUMBERS; k++)
+        if (rules || (bounds && k == RULED_LEAST))
+            programs[count++] =
+                (composed_program){.program = c->of_rules[k], .name = names[k], .along = k >= RULED_LEAST};
     static const char *const last[] = {"machine/text/compiled_run.h", NULL};
     return compose(e, &(composition){.model = m,
                                      .problem = c->interpreted,
@@ -190,6 +204,7 @@ static bool write_text(compiled *c, const chosen *chosen, emit *e)
                                      .program_count = count,
                                      .locality = &c->locality,
                                      .bounds = bounds,
+                                     .rules = rules,
                                      .written = chosen->written,
                                      .last = last});
 }
@@ -305,6 +320,24 @@ static int loops_of(const compiled *c, const purpose *p)
     return !compose_small(c->model) && !p->row->expands ? COMPILER_LOOPS : 0;
 }
 
+/* Finds an object that has the model's rules for its present numbers. */
+static void find_rules(compiled *c)
+{
+    c->ruled = NULL;
+    for (const object *o = c->objects; o < c->objects + c->count; o++)
+        if (o->rules && o->fits(o->u)) c->ruled = o;
+}
+
+bool compiled_rules(void *ctx, ruled_number number, double t, double *const base[SPACES])
+{
+    const compiled *c = ctx;
+    const object *o = c->ruled;
+    if (!o) return false;
+    o->rules(&o->host, number, t, base[SPACE_X], base[SPACE_V], base[SPACE_A], base[SPACE_DX], base[SPACE_DV],
+             base[SPACE_OUT]);
+    return true;
+}
+
 /* Takes an object that was loaded; NULL: it is not sound, and c->note says why. */
 static object *adopt(compiled *c, const purpose *p, const emit *e, void *handle)
 {
@@ -317,6 +350,7 @@ static object *adopt(compiled *c, const purpose *p, const emit *e, void *handle)
         *(void **)&o->body.run = dlsym(handle, "motus_run");
         *(void **)&o->fits = dlsym(handle, "motus_fits");
         *(void **)&o->accel = dlsym(handle, "motus_accel");
+        *(void **)&o->rules = dlsym(handle, "motus_rules");
     }
     if (c->count == OBJECTS_MAX || !o->bind || !o->body.run || !o->fits || (!o->accel && !p->expands) ||
         !bind_numbers(c, o, e)) {
@@ -325,6 +359,7 @@ static object *adopt(compiled *c, const purpose *p, const emit *e, void *handle)
         return NULL;
     }
     c->count++;
+    find_rules(c);
     return o;
 }
 
@@ -434,6 +469,7 @@ void compiled_leave(compiled *c, const chosen *chosen)
 void compiled_rebind(compiled *c)
 {
     for (int i = 0; c && i < c->count; i++) c->objects[i].bind(c->model->pool, c->objects[i].q, c->objects[i].u);
+    if (c) find_rules(c);
 }
 
 const char *compiled_prepare(compiled *c, const chosen *chosen, bool kept)

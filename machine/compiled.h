@@ -3,6 +3,7 @@
 #define MACHINE_COMPILED_H
 
 #include "machine/machine.h"
+#include "machine/ruled.h"
 
 typedef struct compiled compiled;
 /* Tells whether this build has a compiled machine; that of the page has none. */
@@ -11,6 +12,8 @@ bool compiled_anywhere(void);
 motus_status compiled_create(model *, const problem *interpreted, compiled **, motus_error *);
 /* Takes over the model's numbers after they have changed. */
 void compiled_rebind(compiled *);
+/* Computes what ruled.h says of all functions of the model's rules, where an object has that. ctx: the machine. */
+bool compiled_rules(void *ctx, ruled_number, double t, double *const base[SPACES]);
 /* Unloads the objects; the memory is the model's. */
 void compiled_close(compiled *);
 /* Returns the C text that runs a row of this model, in the model's arena; NULL: no memory. */

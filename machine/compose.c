@@ -110,6 +110,7 @@ static void add_watch(emit_text *t, const composition *c)
     add_text(t, "step/swing.h");
     if (c->bounds) {
         emit_add(t, "#define BOUNDS %zu\n", compose_bounds_are_structure(m) ? m->rule_functions : 0);
+        emit_add(t, "#define RULES %d\n", c->rules);
         add_text(t, "step/box.h");
         add_text(t, "machine/text/watched.h");
     }

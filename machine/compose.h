@@ -26,6 +26,7 @@ typedef struct composition {
     size_t program_count;
     const locality *locality; /* of the force, if it may be computed window by window; else NULL */
     bool bounds;              /* a program is "compiled_least": bounds of the functions of the model's rules */
+    bool rules;               /* programs are all that is computed of these functions (ruled.h) */
     bool written;             /* stages are written out even where that takes a compiler long */
     bool solves;              /* lanes: the row solves equations, by solve_text.h */
     bool own_clock;           /* lanes: each trajectory has a time and a step of its own */

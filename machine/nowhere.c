@@ -46,5 +46,10 @@ compiled_state compiled_look(compiled *c, const chosen *chosen, const char **why
 void compiled_nap(void) {}
 void beside_rest(beside *b) { (void)b; }
 void compiled_leave(compiled *c, const chosen *chosen) { (void)c, (void)chosen; }
+bool compiled_rules(void *ctx, ruled_number number, double t, double *const base[SPACES])
+{
+    (void)ctx, (void)number, (void)t, (void)base;
+    return false;
+}
 void compiled_rebind(compiled *c) { (void)c; }
 void compiled_close(compiled *c) { (void)c; }

@@ -32,11 +32,13 @@ struct ruled {
     model *model;
     rules supplied;
     rule *rule;
-    tape *values, *rates, *rounding, *least, *least_rates; /* NULL: there are no functions */
-    resolution *within, *rates_within;                     /* the functions and their rates as intervals */
-    interval *in_x, *in_v, *in_a, *is;                     /* room for the intervals of the state and of all
+    tape *of[RULED_NUMBERS]; /* NULL: there are no functions */
+    ruled_faster faster;     /* NULL: the tapes compute all */
+    void *faster_ctx;
+    resolution *within, *rates_within; /* the functions and their rates as intervals */
+    interval *in_x, *in_v, *in_a, *is; /* room for the intervals of the state and of all
                                                             * functions */
-    leaf *leaf;                                            /* of all rules, in the order of their functions */
+    leaf *leaf;                        /* of all rules, in the order of their functions */
     size_t leaves;
     arguments *arguments;
     lone *alone[RULE_NUMBERS]; /* single functions of every leaf; NULL: there are few, or they contain sums */
@@ -49,45 +51,42 @@ struct ruled {
 
 /* ---- functions ---- */
 
-/* Computes all functions. A cell outside the ranges has none and becomes `else_`. */
-static void run(const ruled *r, tape *t, double time, double else_, double *base[SPACES])
+/* Computes a number of all functions. A cell outside the ranges has none and becomes `else_`. */
+static void run(const ruled *r, ruled_number number, double time, double else_, double *base[SPACES])
 {
+    if (r->faster && r->faster(r->faster_ctx, number, time, base)) return;
     for (size_t k = 0; k < r->supplied.functions; k++) base[SPACE_OUT][k] = else_;
-    if (t) tape_run(t, time, base);
+    if (r->of[number]) tape_run(r->of[number], time, base);
 }
 
 static int values(void *ctx, double t, double *x, double *v, double *out)
 {
-    const ruled *r = ctx;
-    run(r, r->values, t, NAN, (double *[SPACES]){[SPACE_X] = x, [SPACE_V] = v, [SPACE_OUT] = out});
+    run(ctx, RULED_VALUES, t, NAN, (double *[SPACES]){[SPACE_X] = x, [SPACE_V] = v, [SPACE_OUT] = out});
     return 0;
 }
 
 static int rates(void *ctx, double t, double *x, double *v, double *a, double *out)
 {
-    const ruled *r = ctx;
-    run(r, r->rates, t, NAN, (double *[SPACES]){[SPACE_X] = x, [SPACE_V] = v, [SPACE_A] = a, [SPACE_OUT] = out});
+    run(ctx, RULED_RATES, t, NAN, (double *[SPACES]){[SPACE_X] = x, [SPACE_V] = v, [SPACE_A] = a, [SPACE_OUT] = out});
     return 0;
 }
 
 static void rounding(void *ctx, double t, double *x, double *v, double *out)
 {
     const ruled *r = ctx;
-    run(r, r->rounding, t, NAN, (double *[SPACES]){[SPACE_X] = x, [SPACE_V] = v, [SPACE_OUT] = out});
+    run(r, RULED_ROUNDING, t, NAN, (double *[SPACES]){[SPACE_X] = x, [SPACE_V] = v, [SPACE_OUT] = out});
     for (size_t k = 0; k < r->supplied.functions; k++) out[k] *= 0x1p-53;
 }
 
 static void least(void *ctx, double *x, double *v, double *dx, double *dv, double *out)
 {
-    const ruled *r = ctx;
-    run(r, r->least, NAN, INFINITY,
+    run(ctx, RULED_LEAST, NAN, INFINITY,
         (double *[SPACES]){[SPACE_X] = x, [SPACE_V] = v, [SPACE_DX] = dx, [SPACE_DV] = dv, [SPACE_OUT] = out});
 }
 
 static void least_rates(void *ctx, double *x, double *v, double *dx, double *dv, double *out)
 {
-    const ruled *r = ctx;
-    run(r, r->least_rates, NAN, INFINITY,
+    run(ctx, RULED_LEAST_RATES, NAN, INFINITY,
         (double *[SPACES]){[SPACE_X] = x, [SPACE_V] = v, [SPACE_DX] = dx, [SPACE_DV] = dv, [SPACE_OUT] = out});
 }
 
@@ -252,38 +251,50 @@ static motus_status undefined(void *ctx, size_t f, double last, double t, const 
 /* ---- making ---- */
 
 /* Makes what computes single functions, rates, and bounds on rounding. */
-static bool make_alone(ruled *r, model *m, const output *leaves, const output *rates, size_t count)
+static bool make_alone(ruled *r, model *m, output *const outputs[RULED_NUMBERS], size_t count)
 {
     if (r->supplied.functions < FEW) return true;
-    const output *const of[RULE_NUMBERS] = {leaves, rates, rounding_outputs(m, leaves, count)};
+    const output *const of[RULE_NUMBERS] = {outputs[RULED_VALUES], outputs[RULED_RATES], outputs[RULED_ROUNDING]};
     bool all = true;
     for (int k = 0; k < RULE_NUMBERS; k++) {
-        if (!of[k] || !lone_create(m->arena, m->graph, of[k], count, &r->alone[k])) return false;
+        if (!lone_create(m->arena, m->graph, of[k], count, &r->alone[k])) return false;
         all &= r->alone[k] != NULL;
     }
     if (all) r->supplied.alone = alone;
     return true;
 }
 
-static bool make_functions(ruled *r, model *m)
+bool ruled_outputs(model *m, output *of[RULED_NUMBERS], size_t *count)
 {
-    size_t count;
-    output *nearest = least_sizes(m, &count);
-    if (!nearest || !count) return nearest != NULL;
-    output *leaves = arena_room(m->arena, 3 * count * sizeof *leaves), *rate = leaves + count, *slowest = rate + count;
+    output *nearest = least_sizes(m, count);
+    if (!nearest || !*count) return nearest != NULL;
+    output *leaves = arena_room(m->arena, 3 * *count * sizeof *leaves), *rate = leaves + *count,
+           *slowest = rate + *count;
     if (!leaves) return false;
     for (uint32_t i = 0, n = 0; i < m->rule_count; i++)
         for (size_t k = 0; k < m->rules[i].leaves; k++, n++) {
             leaves[n] = rate[n] = slowest[n] = m->rules[i].leaf[k];
             rate[n].value = graph_derivative(m->graph, leaves[n].value, model_seed_motion, m);
-            if (graph_deps(m->graph, rate[n].value) & DEP_A) r->supplied.rates_without_a = false;
             slowest[n].value = least_rate(m, leaves[n].value, rate[n].value);
         }
-    r->values = tape_of(m->arena, m->graph, leaves, count);
-    r->rates = tape_of(m->arena, m->graph, rate, count);
-    r->rounding = rounding_tape(m, leaves, count);
-    r->least = tape_of(m->arena, m->graph, nearest, count);
-    r->least_rates = tape_of(m->arena, m->graph, slowest, count);
+    of[RULED_VALUES] = leaves, of[RULED_RATES] = rate, of[RULED_ROUNDING] = rounding_outputs(m, leaves, *count);
+    of[RULED_LEAST] = nearest, of[RULED_LEAST_RATES] = slowest;
+    return of[RULED_ROUNDING] != NULL;
+}
+
+static bool make_functions(ruled *r, model *m)
+{
+    size_t count;
+    output *of[RULED_NUMBERS];
+    if (!ruled_outputs(m, of, &count)) return false;
+    if (!count) return true;
+    const output *const leaves = of[RULED_VALUES], *const rate = of[RULED_RATES];
+    for (size_t n = 0; n < count; n++)
+        if (graph_deps(m->graph, rate[n].value) & DEP_A) r->supplied.rates_without_a = false;
+    for (int k = 0; k < RULED_NUMBERS; k++) {
+        r->of[k] = tape_of(m->arena, m->graph, of[k], count);
+        if (!r->of[k]) return false;
+    }
     r->in_x = arena_room(m->arena, (m->nx + 2 * m->nv + m->rule_functions) * sizeof *r->in_x);
     if (!r->in_x || !resolution_create_values(m, leaves, count, &r->within) ||
         !resolution_create_values(m, rate, count, &r->rates_within))
@@ -297,8 +308,7 @@ static bool make_functions(ruled *r, model *m)
                                         .first = r->rule[i].first + k * r->rule[i].instances,
                                         .bends = resolution_bends(r->within, r->leaves)};
     r->supplied.arguments = arguments_most(r->arguments);
-    if (!make_alone(r, m, leaves, rate, count)) return false;
-    return r->values && r->rates && r->rounding && r->least && r->least_rates;
+    return make_alone(r, m, of, count);
 }
 
 static bool make_periods(ruled *r, model *m)
@@ -466,14 +476,16 @@ motus_status ruled_create(model *m, ruled **out, motus_error *err)
     return MOTUS_OK;
 }
 
+void ruled_use(ruled *r, ruled_faster faster, void *ctx) { r->faster = faster, r->faster_ctx = ctx; }
+
 const rules *ruled_rules(const ruled *r) { return &r->supplied; }
 
 bool ruled_rebind(ruled *r)
 {
     const binding b = {r->model->arrays, r->ints, r->model->pool};
-    tape *const tapes[] = {r->values, r->rates, r->rounding, r->least, r->least_rates, r->periods};
-    for (size_t k = 0; k < sizeof tapes / sizeof *tapes; k++)
-        if (tapes[k] && !tape_bind(tapes[k], &b)) return false;
+    for (size_t k = 0; k < RULED_NUMBERS; k++)
+        if (r->of[k] && !tape_bind(r->of[k], &b)) return false;
+    if (r->periods && !tape_bind(r->periods, &b)) return false;
     if (r->arguments && !arguments_bind(r->arguments, &b)) return false;
     double *base[SPACES] = {[SPACE_OUT] = r->period};
     if (r->periods) tape_run(r->periods, 0, base);

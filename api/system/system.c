@@ -222,6 +222,7 @@ motus_status system_rules(motus_system *s, const rules **out, motus_error *err)
     if (!s->model) return MOTUS_OK;
     motus_status status = MOTUS_OK;
     if (s->model->rule_count && !s->ruled) status = ruled_create(s->model, &s->ruled, err);
+    if (s->ruled && s->compiled) ruled_use(s->ruled, compiled_rules, s->compiled);
     if (status == MOTUS_OK && s->ruled) *out = ruled_rules(s->ruled);
     if (status != MOTUS_OK || !s->model->located) return status;
     if (!s->sides) status = sides_create(s->model, *out, &s->problem, &s->sides, err);

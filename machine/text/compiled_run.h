@@ -157,4 +157,25 @@ void motus_bind(const double *pool, const int64_t *q, double *u)
 #ifdef BOUNDS
     compiled_least_bind(pool, q, u);
 #endif
+#if RULES
+    compiled_values_bind(pool, q, u);
+    compiled_rates_bind(pool, q, u);
+    compiled_rounding_bind(pool, q, u);
+    compiled_least_rates_bind(pool, q, u);
+#endif
 }
+
+#if RULES /* number: that of ruled.h */
+void motus_rules(const compiled_host *host, int number, clock t, real *x, real *v, real *a, const real *dx,
+                 const real *dv, real *out)
+{
+#define GIVEN host->pool, host->q, host->u, host->bound, host->own, t, (const clock *)0, x, v, a, out
+    switch (number) {
+    case 0: compiled_values(GIVEN); break;
+    case 1: compiled_rates(GIVEN); break;
+    case 2: compiled_rounding(GIVEN); break;
+    case 3: compiled_least(GIVEN, dx, dv); break;
+    default: compiled_least_rates(GIVEN, dx, dv);
+    }
+}
+#endif
