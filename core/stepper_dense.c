@@ -53,7 +53,8 @@ bool stepper_swing(stepper *s, double *most)
     return s->body->swing(w, most);
 }
 
-motus_status stepper_sample(stepper *s, double t, double *x, double *v, motus_error *err)
+/* Makes ready for dense output at time t. */
+static motus_status prepare(stepper *s, double t, motus_error *err)
 {
     const bool again = !marked(s, t) && !(s->left && s->left_steps == stepper_steps(s) - 1);
     motus_status status = again ? stepper_again(s, err) : MOTUS_OK;
@@ -68,11 +69,19 @@ motus_status stepper_sample(stepper *s, double t, double *x, double *v, motus_er
     }
     status = stepper_right_end(s, err);
     if (!status && !s->inside) status = make_room(s, err);
+    if (status || s->extended) return status;
+    const dense_step step = last_step(s);
+    s->extended = s->body->extend(&s->work, &step) == STEP_OK;
+    return s->extended ? MOTUS_OK : stepper_report(s, STEP_CALLBACK, t, err);
+}
+
+motus_status stepper_sample(stepper *s, double t, double *x, double *v, motus_error *err)
+{
+    const bool ready = s->right && s->extended && marked(s, t);
+    const motus_status status = ready ? MOTUS_OK : prepare(s, t, err);
     if (status) return status;
     const dense_step step = last_step(s);
-    const int bad = s->extended ? STEP_OK : s->body->extend(&s->work, &step);
-    s->extended = !bad;
-    if (bad || (s->body->dense(&s->work, &step, t, x, v))) return stepper_report(s, STEP_CALLBACK, t, err);
+    if (s->body->dense(&s->work, &step, t, x, v)) return stepper_report(s, STEP_CALLBACK, t, err);
     if (s->problem.refresh) s->problem.refresh(s->problem.ctx, t, x, v);
     return MOTUS_OK;
 }

@@ -1,6 +1,7 @@
 /* See later.h. */
 #include "api/motion/later.h"
 
+#include "api/motion/run_events.h"
 #include "api/request/choice.h"
 
 #include <math.h>
@@ -13,6 +14,7 @@
  * seconds. */
 #define LONGER_LOOK 2.0
 #define LONGER_LEFT 20.0
+#define EVENT_STEPS 16 /* steps that take as long as an event with its actions */
 
 /* Counts steps in all legs. */
 static int64_t steps_of(const motus_run *r) { return r->before + run_steps(r); }
@@ -28,7 +30,8 @@ static void consider_after(motus_run *r, double work)
 /* Lets a run that goes on compiled consider the longer text, if its object has one. */
 static void expect_longer(motus_run *r)
 {
-    if (compiled_longer(r->system->compiled, &r->chosen)) consider_after(r, LONGER_LOOK);
+    if (compiled_longer(r->system->compiled, &r->chosen))
+        consider_after(r, r->rules ? LONGER_LOOK / EVENT_STEPS : LONGER_LOOK);
 }
 
 motus_status later_choose(motus_run *r, const char *wanted, double steps, motus_error *err)
@@ -118,7 +121,8 @@ static bool repays(const motus_run *r, bool longer)
 {
     const double all = r->timing.until - r->timing.t0;
     const double part = (stepper_time(r->stepper) - r->timing.t0) / all;
-    const double done = choice_worth(r->system, &r->chosen, r->card, (double)run_steps(r)) * (r->company ? 3 : 1);
+    const double steps = (double)run_steps(r) + EVENT_STEPS * (double)run_events_acted(r);
+    const double done = choice_worth(r->system, &r->chosen, r->card, steps) * (r->company ? 3 : 1);
     return done * (1 - part) >= (longer ? LONGER_LEFT : LEFT) * part;
 }
 
