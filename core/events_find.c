@@ -90,12 +90,15 @@ static double place_of(const events *e, const search *of, double tau)
     return time_at(e, of->part->from + tau * (of->part->to - of->part->from));
 }
 
-/* Returns the largest size of the polynomial between two roots, and tells where it is. */
+/* Returns the largest size of the polynomial between two roots, and tells where it is, if that is at most the slack;
+ * else any size above the slack. */
 static double depth_between(const search *of, const roots_root *a, const roots_root *b, double *at)
 {
     enum { POINTS = 16 };
     double most = 0;
     *at = a->tau + (b->tau - a->tau) / 2;
+    const double middle = fabs(events_polynomial(of->coefficients, of->degree, *at));
+    if (middle > of->slack) return middle;
     for (int k = 1; k < POINTS; k++) {
         const double tau = a->tau + (b->tau - a->tau) * k / POINTS;
         const double size = fabs(events_polynomial(of->coefficients, of->degree, tau));

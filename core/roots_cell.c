@@ -123,31 +123,51 @@ static wide wide_sum(double a, double b)
     return (wide){s, (a - (s - t)) + (b - t)};
 }
 
-/* Evaluates by Clenshaw's recurrence in pairs of doubles, since its rounding grows with n^2 near the ends. x = 2 tau -
- * 1. */
-static double wide_value(const double *c, int degree, wide x)
+/* Splits a number into two of at most 26 bits each, whose products are exact [Dekker71]. */
+static wide split(double a)
 {
-    wide b1 = {0, 0}, b2 = {0, 0};
+    const double big = 0x8000001p0 * a, high = big - (big - a);
+    return (wide){high, a - high};
+}
+
+enum { CUTS = ROOTS_CELL_DEGREE + 1 };
+
+/* Evaluates by Clenshaw's recurrence in pairs of doubles, since its rounding grows with n^2 near the ends; at all points
+ * side by side, because each point alone waits for its own operations. x = 2 tau - 1. */
+static void wide_values(const double *c, int degree, const wide x[CUTS], double values[CUTS])
+{
+    double factor[CUTS], low[CUTS], upper[CUTS], lower[CUTS]; /* x or 2 x, its rest, its halves */
+    double b1[CUTS] = {0}, b1_low[CUTS] = {0}, b2[CUTS] = {0}, b2_low[CUTS] = {0};
     for (int k = degree; k >= 0; k--) {
-        const double factor = k > 0 ? 2 * x.hi : x.hi, low = k > 0 ? 2 * x.lo : x.lo, product = factor * b1.hi;
-        const double lost = fma(factor, b1.hi, -product) + (factor * b1.lo + low * b1.hi);
-        const wide s = wide_sum(product, -b2.hi), t = wide_sum(s.hi, c[k]);
-        const double rest = (s.lo + t.lo) + (lost - b2.lo);
-        b2 = b1;
-        b1 = wide_sum(t.hi, rest);
+        for (int i = 0; i < CUTS && (k == degree || k == 0); i++) {
+            factor[i] = k > 0 ? 2 * x[i].hi : x[i].hi, low[i] = k > 0 ? 2 * x[i].lo : x[i].lo;
+            const wide halves = split(factor[i]);
+            upper[i] = halves.hi, lower[i] = halves.lo;
+        }
+        for (int i = 0; i < CUTS; i++) {
+            const double product = factor[i] * b1[i];
+            const wide b = split(b1[i]);
+            const double off = ((upper[i] * b.hi - product) + (upper[i] * b.lo + lower[i] * b.hi)) + lower[i] * b.lo;
+            const double lost = off + (factor[i] * b1_low[i] + low[i] * b1[i]);
+            const wide s = wide_sum(product, -b2[i]), t = wide_sum(s.hi, c[k]);
+            const wide next = wide_sum(t.hi, (s.lo + t.lo) + (lost - b2_low[i]));
+            b2[i] = b1[i], b2_low[i] = b1_low[i];
+            b1[i] = next.hi, b1_low[i] = next.lo;
+        }
     }
-    return b1.hi + b1.lo;
+    for (int i = 0; i < CUTS; i++) values[i] = b1[i] + b1_low[i];
 }
 
 double roots_cell_cut(const double *coefficients, int degree, double at, double half, roots_cell *cell)
 {
-    double values[ROOTS_CELL_DEGREE + 1], tail = 0;
-    for (int k = 0; k <= ROOTS_CELL_DEGREE; k++) {
-        wide tau = wide_sum(at, 2 * half * roots_point(k, ROOTS_CELL_DEGREE));
-        wide x = wide_sum(2 * tau.hi, -1);
-        x = wide_sum(x.hi, x.lo + 2 * tau.lo);
-        values[k] = wide_value(coefficients, degree, x);
+    double values[CUTS], tail = 0;
+    wide x[CUTS];
+    for (int k = 0; k < CUTS; k++) {
+        const wide tau = wide_sum(at, 2 * half * roots_point(k, ROOTS_CELL_DEGREE));
+        x[k] = wide_sum(2 * tau.hi, -1);
+        x[k] = wide_sum(x[k].hi, x[k].lo + 2 * tau.lo);
     }
+    wide_values(coefficients, degree, x, values);
     cell->at = at;
     cell->half = half;
     cell->degree = ROOTS_CELL_DEGREE;
