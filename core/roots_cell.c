@@ -132,8 +132,8 @@ static wide split(double a)
 
 enum { CUTS = ROOTS_CELL_DEGREE + 1 };
 
-/* Evaluates by Clenshaw's recurrence in pairs of doubles, since its rounding grows with n^2 near the ends; at all points
- * side by side, because each point alone waits for its own operations. x = 2 tau - 1. */
+/* Evaluates by Clenshaw's recurrence in pairs of doubles, since its rounding grows with n^2 near the ends. All points
+ * go side by side, because each alone waits for its own operations. x = 2 tau - 1. */
 static void wide_values(const double *c, int degree, const wide x[CUTS], double values[CUTS])
 {
     double factor[CUTS], low[CUTS], upper[CUTS], lower[CUTS]; /* x or 2 x, its rest, its halves */
