@@ -5,6 +5,9 @@
 >>> r = m.run(until=100)
 >>> round(r.final["x"], 7)
 0.0477831
+
+Begin with :class:`Model`: its methods `run`, `start`, `sweep`, `compare`, `converge` and `rank` do the rest. `solve_ivp`
+and `solve` take functions.
 """
 from . import errors
 from ._motus import ffi as _ffi, lib as _lib

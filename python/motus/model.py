@@ -11,7 +11,7 @@ import numpy as np
 
 from ._motus import ffi, lib
 from .calls import Using, check, new, new_error, strings
-from .errors import text
+from .errors import TextError, UnknownNameError, text
 from .places import column_name
 
 Number = Union[float, int, "np.ndarray", list, tuple, str]
@@ -21,6 +21,8 @@ def written(value: Any, what: str) -> str:
     """Writes a number, a vector or a list in the language: ``0.1``, ``(1, 2)``, ``[1, 2, 3]``."""
     if isinstance(value, str):
         return value
+    if what.endswith("(0)") and isinstance(value, (list, np.ndarray)) and np.ndim(value) == 1:
+        value = tuple(np.asarray(value).tolist())  # an initial value is a number or a vector, and never a list
     if isinstance(value, tuple) and 2 <= len(value):
         return "(" + ", ".join(written(v, what) for v in value) + ")"
     array = np.asarray(value)
@@ -29,6 +31,18 @@ def written(value: Any, what: str) -> str:
     if array.ndim == 0:
         return repr(array.item())
     return "[" + ", ".join(written(v, what) for v in array) + "]"
+
+
+def system_of(source: str, name: str, sets: list[str], draft: int = 0) -> Any:
+    """Reads a text."""
+    definition, err, made = new("text_def"), new_error(), ffi.new("motus_system **")
+    body, file = source.encode(), ffi.new("char[]", name.encode())
+    array, kept = strings(sets)
+    buffer = ffi.from_buffer("char[]", body)
+    definition.text, definition.length, definition.file, definition.draft = buffer, len(body), file, draft
+    definition.set, definition.set_count = array, len(sets)
+    check(lib.motus_system_from_text(definition, made, err), err)
+    return ffi.gc(made[0], lib.motus_system_destroy)
 
 
 class Model:
@@ -61,17 +75,17 @@ class Model:
         self._read(source, name, *self._sorted(source, start or {}, numbers))
 
     def _read(self, source: str, name: str, lines: list[str], sets: list[str]) -> None:
-        self.text: str = "\n".join([source.rstrip("\n"), *lines, ""])
-        self.file, self._sets = name, sets
-        definition, err, made = new("text_def"), new_error(), ffi.new("motus_system **")
-        body, file = self.text.encode(), ffi.new("char[]", name.encode())
-        array, kept = strings(sets)
-        buffer = ffi.from_buffer("char[]", body)
-        definition.text, definition.length, definition.file = buffer, len(body), file
-        definition.set, definition.set_count = array, len(sets)
-        check(lib.motus_system_from_text(definition, made, err), err)
-        self._system = ffi.gc(made[0], lib.motus_system_destroy)
-        self._using = Using("model")
+        own = source.rstrip("\n")
+        whole = "\n".join([own, *lines, ""])
+        try:
+            system = system_of(whole, name, sets)
+        except TextError as error:
+            if lines and error.line > own.count("\n") + 1:
+                system_of(own, name, [], draft=1)  # its place is in the lines that were added: the text's own is wanted
+            raise
+        for key, value in (("text", whole), ("file", name), ("_sets", sets), ("_system", system),
+                           ("_using", Using("model"))):
+            object.__setattr__(self, key, value)
 
     @staticmethod
     def _sorted(source: str, start: Mapping[str, Number], numbers: Mapping[str, Number]) -> tuple[list[str], list[str]]:
@@ -88,8 +102,13 @@ class Model:
             else:
                 given[name + "(0)" * (name in variables)] = value
         lines, sets = [], []
+        words = re.findall(r"[^\W\d]\w*", plain)
         for name, value in given.items():
             there = re.search(rf"(?<!\w){re.escape(name)}\s*=", plain)
+            bare = re.match(r"\w*", name)[0]  # type: ignore[index]
+            if bare not in words:
+                near = difflib.get_close_matches(bare, words, 1)
+                raise UnknownNameError(f"the text has no {bare}", hint=f"did you mean {near[0]}?" if near else "")
             line = f"{name} = {written(value, name)}"
             (sets if there else lines).append(line)
         return lines, sets
@@ -121,6 +140,9 @@ class Model:
             if other == name:
                 return self._initial(k) if is_initial else self._parameter(k)
         raise KeyError(f"{name!r} is no parameter and no initial value{self._meant(name)}")
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        raise AttributeError(f"a model does not change: m.replace({name}=…) returns one with another {name}")
 
     def __getattr__(self, name: str) -> Any:
         if not name.startswith("_"):

@@ -1,6 +1,8 @@
 """Runs: a model integrated, with the error of the answer."""
 from __future__ import annotations
 
+import difflib
+import inspect
 import math
 from typing import Any, Callable, Iterator, NamedTuple, Optional, Sequence, Union
 
@@ -24,6 +26,16 @@ def chosen(value: str, words: dict[str, int], what: str) -> int:
     return words[value]
 
 
+def with_error(value: float, error: float) -> str:
+    """Writes a number with its error, to the digit that the error leaves."""
+    if error == 0:
+        return f"{value:.12g} (exact)"
+    if not math.isfinite(error) or not math.isfinite(value):
+        return f"{value:.6g} (no error is known)" if math.isnan(error) else f"{value:.6g} (no digit is known)"
+    places = max(0, 1 - math.floor(math.log10(error)))
+    return f"{value:.{min(places, 17)}f} ± {error:.1e}" if places <= 17 else f"{value:.16g} ± {error:.1e}"
+
+
 class Event(NamedTuple):
     """An event of a run, as :attr:`Run.events` has it."""
 
@@ -39,12 +51,19 @@ class Live:
     """A handle of the library that can step, with a system of its own, so that runs of one model may be computed in
     several threads."""
 
-    def __init__(self, model: Model, until: Optional[float] = None, *, method: Optional[str] = None,
-                 step: Optional[float] = None, tolerance: Optional[float] = None, accuracy: Optional[float] = None,
-                 start: Optional[float] = None, error: str = "cheap", absolute: bool = False,
-                 shortest_step: float = 0, longest_step: float = 0, machine: str = "auto", threads: int = 0,
-                 switches: str = "usual", most_steps: int = 0,
-                 progress: Optional[Callable[[float], Any]] = None) -> None:
+    def __init__(self, model: Model, until: Optional[float] = None, **how: Any) -> None:
+        unknown = next((name for name in how if name not in KEYWORDS), None)
+        if unknown is not None:
+            near = difflib.get_close_matches(unknown, KEYWORDS, 1)
+            raise TypeError(f"a run has no argument {unknown!r}" + (f": did you mean {near[0]!r}?" if near else ""))
+        self.begin(model, until, **how)
+
+    def begin(self, model: Model, until: Optional[float] = None, *, method: Optional[str] = None,
+              step: Optional[float] = None, tolerance: Optional[float] = None, accuracy: Optional[float] = None,
+              start: Optional[float] = None, error: str = "cheap", absolute: bool = False,
+              shortest_step: float = 0, longest_step: float = 0, machine: str = "auto", threads: int = 0,
+              switches: str = "usual", most_steps: int = 0,
+              progress: Optional[Callable[[float], Any]] = None) -> None:
         made, err = ffi.new("motus_system **"), new_error()
         with model._using:
             check(lib.motus_system_clone(model._system, made, err), err)
@@ -77,6 +96,9 @@ class Live:
         names = [name for name, _ in ffi.typeof("motus_run_statistics").fields if name != "size"]
         values = {name: getattr(s, name) for name in names}
         return {name: text(v) if isinstance(v, ffi.CData) else v for name, v in values.items()}
+
+
+KEYWORDS = [name for name in inspect.signature(Live.begin).parameters if name not in ("self", "model", "until")]
 
 
 def doubles(array: np.ndarray) -> Any:
@@ -285,5 +307,5 @@ class Run:
         lines = [f"{self.model.file or 'model'}: {s['method']}, t = {self.t[0]:.12g} to {self.t[-1]:.12g} "
                  f"in {s['steps']} steps, {s['evaluations']} evaluations"]
         wide = max((len(n) for n in self.names), default=0)
-        lines += [f"  {n:{wide}}  {v!r} ± {e:.1e}" for (n, v), e in zip(self.final.items(), self.error.values())]
+        lines += [f"  {n:{wide}}  {with_error(v, e)}" for (n, v), e in zip(self.final.items(), self.error.values())]
         return "\n".join(lines)

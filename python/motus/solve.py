@@ -1,6 +1,7 @@
 """Equations given as functions: `solve_ivp` with SciPy's signature, and `solve` for second order."""
 from __future__ import annotations
 
+import re
 from typing import Any, Callable, Optional, Sequence
 
 import numpy as np
@@ -9,7 +10,7 @@ from ._motus import ffi, lib
 from .callback import System
 from .calls import Watch, new, new_error
 from .errors import DivergedError, MethodError, StepsError, text
-from .model import Model
+from .model import system_of
 
 #: SciPy's names of methods, and those of the library.
 METHODS = {"RK23": "bs32", "RK45": "dopri5", "DOP853": "dop853"}
@@ -49,6 +50,17 @@ def method_of(method: Optional[str]) -> str:
     return METHODS.get(method, method)
 
 
+def started(source: str) -> str:
+    """Adds the initial values that a text lacks, since a solver gets them besides."""
+    plain = re.sub(r"#.*", "", source)
+    lines = []
+    for name, primes in dict(re.findall(r"([^\W\d]\w*)(''?)\s*=", plain)).items():
+        for at in [f"{name}(0)", f"{name}'(0)"][: len(primes)]:
+            if not re.search(rf"(?<!\w){re.escape(at)}", plain):
+                lines.append(f"{at} = 0")
+    return "\n".join([source.rstrip("\n"), *lines, ""])
+
+
 class Solver:
     """A problem in the form in which the library takes it: made anew for every run of it."""
 
@@ -62,9 +74,11 @@ class Solver:
         """Returns a run, what it comes back to, and what keeps it alive."""
         run, err, d = ffi.new("motus_run **"), new_error(), new("run_def")
         if isinstance(self.force, str):
-            model = Model(self.force)
-            system, watch = model._system, Watch(self.progress)
-            kept: Any = model
+            system, watch = system_of(started(self.force), "", []), Watch(self.progress)
+            kept: Any = system
+            nx = lib.motus_positions(system)
+            if len(self.x) == 0 and len(self.v) == nx + lib.motus_velocities(system):
+                self.x, self.v = self.v[:nx].copy(), self.v[nx:].copy()
             if lib.motus_positions(system) != len(self.x) or lib.motus_velocities(system) != len(self.v):
                 raise ValueError(f"the text has {lib.motus_positions(system)} positions and "
                                  f"{lib.motus_velocities(system)} velocities and first-order variables; the initial "
@@ -182,6 +196,9 @@ class Solver:
 def begin(force: Any, span: Sequence[float], x0: Any, v0: Any, *, method: Optional[str], times: Any, dense: bool,
           events: Any, args: Any, rtol: Optional[float], atol: Optional[float], max_step: Optional[float],
           step: Optional[float], accuracy: Optional[float], progress: Any, reads_velocity: bool = True) -> Result:
+    for name, numbers in (("x0", x0), ("the initial values", v0)):
+        if np.asarray(numbers).dtype.kind not in "fiub":
+            raise TypeError(f"{name}: {np.asarray(numbers).dtype}; real numbers are wanted (write a complex one as two)")
     x, v = (np.ascontiguousarray(np.atleast_1d(a), dtype=np.float64) for a in (x0, v0))
     if x.ndim != 1 or v.ndim != 1:
         raise TypeError(f"initial values are one row of numbers each, not {x.ndim if x.ndim != 1 else v.ndim}-dimensional")
@@ -192,6 +209,8 @@ def begin(force: Any, span: Sequence[float], x0: Any, v0: Any, *, method: Option
     several = [] if events is None else list(events) if isinstance(events, (list, tuple)) else [events]
     if times is not None:
         times = np.array(times, dtype=np.float64)
+        if (np.diff(times) * (float(span[1]) - float(span[0])) < 0).any():
+            raise ValueError("t_eval: the times follow the direction of the motion, from span[0] to span[1]")
     solver = Solver(force, span, x, v, how, several, tuple(args or ()), reads_velocity, progress)
     return solver.solve(times, dense)
 
@@ -200,14 +219,18 @@ def solve_ivp(fun: Any, t_span: Sequence[float], y0: Any, method: Optional[str] 
               dense_output: bool = False, events: Any = None, args: Any = None, *, rtol: float = 1e-9,
               atol: Optional[float] = None, max_step: Optional[float] = None, step: Optional[float] = None,
               accuracy: Optional[float] = None, progress: Optional[Callable[[float], Any]] = None) -> Result:
-    """Integrates y' = fun(t, y), as SciPy's function of this name does.
+    """Integrates y' = fun(t, y), called as SciPy's function of this name.
+
+    What differs: without a method one is chosen; rtol is 1e-9; the keywords are those below, and any other, such as jac
+    or first_step, is a TypeError; there are no BDF and LSODA; every zero of every event is found.
 
     >>> s = solve_ivp(lambda t, y: [y[1], -y[0]], (0, 10), [1, 0])
     >>> s.success, bool(abs(s.y[0, -1] - np.cos(10)) < s.error[0])
     (True, True)
 
     Args:
-        fun: a function of t and y; the text of a model, whose variables stand in the order of y0; or a compiled
+        fun: a function of t and y; the text of a model, in which y0 are all positions, then their velocities, then the
+            first-order variables; or a compiled
             function (numba's cfunc, SciPy's LowLevelCallable, cffi, ctypes, an address) of `motus.signature`, in which
             y is `v` and y' is `a`.
         t_span: start and end; the end may be before the start.

@@ -101,6 +101,8 @@ def sweep(model: Model, vary: Optional[Mapping[str, Any]] = None, *, record: Uni
     >>> s["max(x)"].shape, s["x'"].shape
     ((5,), (5,))
 
+    What varies has one length, and trajectory k has the k-th of each; `product=True` combines all, as `motus sweep` does.
+
     Args:
         vary: what differs, by name: ``{"x(0)": …, "r.x(0)": …, "until": …}``; arrays of one length.
         numbers: the same as keywords: a parameter, ``F=…``, or a variable, whose initial value differs, ``x=…``.

@@ -59,6 +59,11 @@ class Solve(unittest.TestCase):
             motus.solve_ivp([1], (0, 1), [1, 0])
         with self.assertRaises(TypeError):
             motus.solve_ivp(spring, (0, 1), [[1, 0]])
+        with self.assertRaisesRegex(TypeError, "complex"):
+            motus.solve_ivp(lambda t, y: 1j * y, (0, 1), [1 + 0j])
+        with self.assertRaisesRegex(ValueError, "direction"):
+            motus.solve_ivp(spring, (0, 10), [1, 0], t_eval=[5, 3])
+        np.testing.assert_allclose(motus.solve_ivp("x'' = -x", (0, 10), [1, 0]).y[:, -1], [np.cos(10), -np.sin(10)], atol=1e-8)
         with self.assertRaises(ValueError):
             motus.solve_ivp(lambda t, y: [1, 2, 3], (0, 1), [1, 0])
 
