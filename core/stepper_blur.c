@@ -12,18 +12,22 @@
 enum { TRIES = 96, SHORTEST = 1 << 20 };
 #define BLUR 32.0 /* roundings of the time: the weights of an error take those of several stages */
 
+/* Evaluates the force at a time, where the motion is now. x, v: room. */
+static bool accelerate(const stepper *s, double t, double *x, double *v, double *a)
+{
+    const problem *p = &s->problem;
+    memcpy(x, s->work.x, p->nx * sizeof *x);
+    memcpy(v, s->work.v, p->nv * sizeof *v);
+    memset(a, 0, p->nv * sizeof *a);
+    return !p->accel(p->ctx, t, x, v, a);
+}
+
 /* Computes in a what a candidate of size h may be off; the other arrays are room. */
 static void find_blur(const stepper *s, double h, double *a, double *later, double *x, double *v)
 {
     const problem *p = &s->problem;
     const double t = s->work.t, far = fmax(fabs(t), fabs(t + h)), ulp = nextafter(far, INFINITY) - far;
-    bool known = true;
-    for (int end = 0; end < 2 && known; end++) {
-        memcpy(x, s->work.x, p->nx * sizeof *x);
-        memcpy(v, s->work.v, p->nv * sizeof *v);
-        memset(end ? later : a, 0, p->nv * sizeof *a);
-        known = !p->accel(p->ctx, end ? t + h : t, x, v, end ? later : a);
-    }
+    const bool known = accelerate(s, t, x, v, a) && accelerate(s, t + h, x, v, later);
     for (size_t k = 0; k < p->nv; k++) {
         const double moved = fabs(later[k] - a[k]);
         a[k] = known && isfinite(moved) ? BLUR * ulp * moved : 0;

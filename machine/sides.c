@@ -489,7 +489,11 @@ static bool make(sides *s, model *m)
     s->rate = tape_of(m->arena, m->graph, w->rate, w->kinds);
     bool finds = false;
     for (size_t k = 0; k < w->kinds; k++) finds |= sides_op_of(s, w->first[k]) == OP_FIND;
-    if (finds && !(s->position = tape_of(m->arena, m->graph, w->argument, w->kinds))) return false;
+    if (finds) {
+        s->position = tape_of(m->arena, m->graph, w->argument, w->kinds);
+        s->rate_rounding = rounding_tape(m, w->rate, w->kinds);
+        if (!s->position || !s->rate_rounding) return false;
+    }
     s->rounding = rounding_tape(m, w->held, w->kinds);
     s->force_rounding = rounding_tape(m, w->accel, m->accel_count);
     if (w->hold_kinds) {
@@ -539,9 +543,10 @@ const rules *sides_rules(const sides *s) { return &s->supplied; }
 bool sides_rebind(sides *s)
 {
     const binding b = {s->model->arrays, s->model->ints, s->model->pool};
-    tape *const tapes[] = {s->argument,  s->position,       s->from,  s->rates,       s->rate,
-                           s->rounding,  s->force_rounding, s->least, s->least_rates, s->hold,
-                           s->hold_rate, s->hold_rounding,  s->grip,  s->grip_rate,   s->grip_rounding};
+    tape *const tapes[] = {s->argument,    s->position,  s->from,           s->rates,
+                           s->rate,        s->rounding,  s->force_rounding, s->least,
+                           s->least_rates, s->hold,      s->hold_rate,      s->hold_rounding,
+                           s->grip,        s->grip_rate, s->grip_rounding,  s->rate_rounding};
     for (size_t k = 0; k < sizeof tapes / sizeof *tapes; k++)
         if (tapes[k] && !tape_bind(tapes[k], &b)) return false;
     sides_bind_timed(s);

@@ -350,6 +350,48 @@ static bool has_force(const sides *s)
     return true;
 }
 
+/* Bounds the rounding of the rate of argument k, which s->du has, by accelerations in s->a. */
+static double rate_rounding(sides *s, size_t k, double t, double *x, double *v)
+{
+    const size_t nv = s->problem->nv;
+    const double rate = s->du[k];
+    double *base[SPACES] = {[SPACE_X] = x, [SPACE_V] = v, [SPACE_A] = s->b};
+    memset(s->b, 0, nv * sizeof *s->b);
+    tape_run(s->force_rounding, t, base);
+    sides_evaluate(s, s->rate_rounding, t, x, v, s->a, s->later);
+    double hidden = 0x1p-52 * s->later[k];
+    for (int pattern = 1; pattern <= 2; pattern++) { /* as in look_ahead */
+        for (size_t i = 0; i < nv; i++)
+            s->v[i] = s->a[i] + (i % (size_t)pattern ? -1 : 1) * 0x1p-52 * fmin(s->b[i], 0x1p1000);
+        sides_evaluate(s, s->rate, t, x, v, s->v, s->later);
+        hidden += fabs(s->later[k] - rate);
+    }
+    return hidden;
+}
+
+/* Chooses the side of a value in a table, at a point where two rows meet. Both have one value there, but for rounding,
+ * so the motion is unique, and its rate is that of both sides. Where rounding hides the rate, the first derivative
+ * that shows tells. */
+static motus_status choose_row(sides *s, size_t k, bool left, double at, const double on[2], double way, double t,
+                               double *x, double *v, motus_error *err)
+{
+    double *side = x + s->switches->slot + k;
+    const double bound = rate_rounding(s, k, t, x, v);
+    int up, down = 0;
+    if (fmin(fabs(on[0]), fabs(on[1])) > bound && (on[0] > 0) == (on[1] > 0)) {
+        *side = on[0] < 0 ? at - 1 : at;
+        return MOTUS_OK;
+    }
+    motus_status status = look_ahead(s, k, at, at, way, t, x, v, &up, err);
+    if (status == MOTUS_OK && up <= 0) status = look_ahead(s, k, at - 1, at, way, t, x, v, &down, err);
+    if (status != MOTUS_OK) return status;
+    if (up || down || !left)
+        *side = up <= 0 && (up || down < 0) ? at - 1 : at;
+    else
+        *side = switches_beyond(OP_FIND, *side, s->u[k]);
+    return status;
+}
+
 motus_status sides_choose_count(sides *s, size_t k, bool left, double at, double way, double t, double *x, double *v,
                                 motus_error *err)
 {
@@ -366,6 +408,7 @@ motus_status sides_choose_count(sides *s, size_t k, bool left, double at, double
         *side = goes && (goes > 0) == (outside == at) ? outside : inside;
         return status;
     }
+    if (sides_op_of(s, k) == OP_FIND) return choose_row(s, k, left, at, on, way, t, x, v, err);
     if (on[0] > 0 && on[1] < 0) return sides_refuse(s, k, not_unique, t, err);
     if (on[0] < 0 && on[1] > 0)
         return sides_refuse(s, k, "the motion slides along a jump of the force, which drives it back from both sides,",

@@ -28,6 +28,7 @@ struct sides {
     size_t *kind_of;    /* by rule after those of the text: its kind */
     size_t shown_count, shown_kinds;
     tape *position;                         /* the arguments without sides; NULL: no switch is a search in a table */
+    tape *rate_rounding;                    /* NULL: as above */
     tape *hold, *hold_rate, *hold_rounding; /* NULL: no switch can be held */
     tape *grip, *grip_rate, *grip_rounding; /* NULL: no switch can be held */
     /* an entry for each switch: */

@@ -309,6 +309,33 @@ static void coupled(void **state)
     }
 }
 
+/* A block on a plank on a rough floor: both rest, exactly, until the push exceeds what the floor holds, and then go
+ * together. No number of the model is exact in binary but those of the push. */
+static void stacked(void **state)
+{
+    (void)state;
+    static const char *const texts[] = {
+        "a = 2.943; b = 2.943\nx1'' = a sign(x2' - x1')\nx2'' = (12 t - a sign(x2' - x1') - b sign(x2'))/2\n",
+        "a = 2.943; b = 2.943; m = 1; M = 2\nx2'' = 12 t/M - a/M sign(x2' - x1') - b/M sign(x2')\n"
+        "x1'' = a/m sign(x2' - x1')\n",
+        "a = 2.943; b = 2.943\nx0'' = a sign(x1' - x0')\n"
+        "x1'' = a/0.3 sign(x2' - x1') - a/0.3 sign(x1' - x0')\n"
+        "x2'' = (12 t - a sign(x2' - x1') - b sign(x2'))/1.7\nx0(0) = 0; x0'(0) = 0\n"};
+    for (size_t k = 0; k < sizeof texts / sizeof *texts; k++)
+        for (int m = 0; m < METHODS; m++) {
+            char text[400];
+            snprintf(text, sizeof text, "%sx1(0) = 0; x1'(0) = 0; x2(0) = 0; x2'(0) = 0\n", texts[k]);
+            const outcome rests = finished(text, methods[m], 1e-9, 0.2), goes = finished(text, methods[m], 1e-9, 0.7);
+            const double late = 0.7 - 2.943 / 12, v = 2 * late * late;
+            for (int i = 0; i < 2; i++) {
+                NEAR(rests.x[i], 0, 0);
+                NEAR(rests.v[i], 0, 0);
+                NEAR(goes.x[i], v * late / 3, 1e-12);
+                NEAR(goes.v[i], v, 1e-12);
+            }
+        }
+}
+
 /* One surface, whatever forms it is written in, has one value: the friction of a block on another, which slides on ice,
  * and of three on one another. They go on as one once they are equally fast, from t = 1 and from t = 5/6 on. */
 static void written_twice(void **state)
@@ -871,6 +898,7 @@ int main(void)
         cmocka_unit_test(comes_to_rest_by_swings),
         cmocka_unit_test(leaves_the_rest),
         cmocka_unit_test(coupled),
+        cmocka_unit_test(stacked),
         cmocka_unit_test(written_twice),
         cmocka_unit_test(between_branches),
         cmocka_unit_test(undefined_beyond),

@@ -579,6 +579,50 @@ static void peaks_between_steps(void **state)
 }
 
 /* A boundary line may be a table. */
+/* Leads x'' = ±t^2 - c x' from rest. */
+static void exact_creep(double c, double t, int way, double *x, double *v)
+{
+    double e = 0, term = c * c * c * t * t * t / 6; /* 1 - ct + (ct)^2/2 - exp(-ct), without cancellation */
+    for (int n = 4; n < 40; n++) e += term, term *= -c * t / n;
+    *v = way * 2 * e / (c * c * c);
+    *x = way * (t * t * t / 3 - *v * way) / c;
+}
+
+/* A motion that rests on a point of tables leaves it slowly: what rounding leaves of the rows must not choose one. */
+static void leaves_a_point(void **state)
+{
+    (void)state;
+    static const char *const texts[] = {
+        /* decimals whose row before the point is not exactly 0 there, by rounding from its first point */
+        "V = [-0.7, 0, 0.2]\nF = [-7.05, 0, 0.33]\nx'' = (%d) t^2 - interp(x', V, F, hold)\n",
+        "V = [-0.7, 0, 0.2]\nF = [-7.1, 0, 0.33]\nx'' = (%d) t^2 - interp(x', V, F) - spline(x', V, [0, 0, 0])\n",
+        /* a force besides that only cancels the table */
+        "V = [-0.7, 0.2, 0.9]\nF = [-7.26, 5.3, 6.455]\n"
+        "x'' = 5.3 + (%d) t^2 - interp(0.2 + x', V, F, hold)\n",
+        /* a spline through points of a line; the argument is a difference */
+        "V = [-0.7, 0, 0.2, 0.9]\nF = [-1.155, 0, 0.33, 1.485]\n"
+        "x'' = (%d) t^2 - spline(x' - w, V, F)\nw' = 0\nw(0) = 0\n"};
+    static const double below[] = {7.05 / 0.7, 7.1 / 0.7, 12.56 / 0.9, 1.65};
+    static const char *const how[] = {"taylor", "dop853", "dopri5"};
+    for (size_t k = 0; k < sizeof texts / sizeof *texts; k++)
+        for (int way = -1; way <= 1; way += 2)
+            for (size_t m = 0; m < sizeof how / sizeof *how; m++) {
+                char text[400];
+                size_t n = (size_t)snprintf(text, sizeof text, texts[k], way);
+                snprintf(text + n, sizeof text - n, "x(0) = 0; x'(0) = 0\n");
+                motus_system *s = given_text(text);
+                motus_run *r = run_to(s, how[m], "interpreter", 1e-9, 0.4);
+                double x, v[2], right_x, right_v;
+                exact_creep(way > 0 ? 1.65 : below[k], 0.4, way, &right_x, &right_v);
+                state_of(r, &x, v);
+                near(x, right_x, 1e-8 * fabs(right_x), text);
+                near(v[0], right_v, 1e-8 * fabs(right_v), text);
+                assert_string_equal(motus_run_now(r).not_located, "");
+                motus_run_destroy(r);
+                motus_system_destroy(s);
+            }
+}
+
 static void boundaries(void **state)
 {
     (void)state;
@@ -662,6 +706,7 @@ int main(void)
         cmocka_unit_test(an_entry_after_the_last),
         cmocka_unit_test(bad_tables),
         cmocka_unit_test(peaks_between_steps),
+        cmocka_unit_test(leaves_a_point),
         cmocka_unit_test(boundaries),
         cmocka_unit_test(curved_boundaries),
         cmocka_unit_test(explained),

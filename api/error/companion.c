@@ -29,6 +29,8 @@
  */
 #include "api/error/companion.h"
 
+#include "base/decimal.h"
+
 #include "core/rows.h"
 #include "api/motion/run_events.h"
 #include "machine/differences.h"
@@ -138,12 +140,14 @@ static motus_status see(companion *c, motus_error *err)
 static motus_status follow(companion *c, double t, motus_error *err)
 {
     stepper_stop why = STOP_STEPS;
+    char from[DECIMAL_MAX], to[DECIMAL_MAX];
     events_turn(c->events, c->stepper);
     const int64_t room = c->controls ? c->room : INT64_MAX;
     motus_status status = run_events_steps(c->events, c->stepper, &c->pace, room, t, &why, err);
     c->room -= events_steps(c->events);
     if (status == MOTUS_OK && why == STOP_STEPS)
-        return fail(err, MOTUS_DIVERGED, "it needs far more steps than the run between two events");
+        return fail(err, MOTUS_DIVERGED, "it needs far more steps than the run from t = %s to %s",
+                    decimal(stepper_time(c->stepper), from), decimal(t, to));
     c->over = why == STOP_EVENT;
     if (status == MOTUS_OK) status = see(c, err);
     if (status == MOTUS_OK) c->t = stepper_time(c->stepper);

@@ -31,6 +31,7 @@ typedef struct inserting {
     node without;      /* an acceleration that becomes 0 instead */
     const bool *taken; /* accelerations that are found only if there is no other, or NULL */
     size_t found;      /* the number of the acceleration that was found */
+    size_t free;       /* how many of those not taken were found */
     bool failed;       /* an acceleration has another index or another range */
 } inserting;
 
@@ -46,7 +47,7 @@ static node equation_of(graph *g, node leaf, int level, void *ctx)
     for (size_t k = 0; k < in->accel_count && level == in->level; k++) {
         const output *o = &in->s->accel[k];
         if (graph_same_reference(&o->to, r) && same_loops(o, in->rate)) {
-            if (!in->taken || !in->taken[k]) in->found = k;
+            if (!in->taken || !in->taken[k]) in->found = k, in->free++;
             return o->value;
         }
     }
@@ -349,6 +350,23 @@ static node resting(const model *m, const switches *s, const output *rate, const
     return graph_op(g, OP_SUB, graph_const(g, 0), graph_op(g, OP_DIV, rest, factor, 0), 0);
 }
 
+/* Returns the kind that finds the fewest accelerations not taken, of those that still wait, and lets it wait no more.
+ * Of switches that are held together, one may leave an acceleration to others: x1'' is x2'' while x2' - x1' is held,
+ * and x2'' is 0 while x2' is, so x2'' comes first. */
+static size_t next_resting(const model *m, const switches *s, const bool *taken, node *waits)
+{
+    size_t best = s->kinds, least = SIZE_MAX;
+    for (size_t k = 0; k < s->kinds; k++) {
+        inserting in = {.s = s, .accel_count = m->accel_count, .rate = &s->rate[k], .taken = taken};
+        if (waits[k] == NO_NODE) continue;
+        in.level = s->rate[k].loops;
+        graph_replace(m->graph, s->rate[k].value, DEP_A, s->rate[k].loops, equation_of, &in);
+        if (in.free < least) best = k, least = in.free;
+    }
+    if (best < s->kinds) waits[best] = NO_NODE;
+    return best;
+}
+
 /* Gives the value of kind k to the others of its surface. */
 static void share_value(graph *g, const switches *s, size_t k, node *value)
 {
@@ -439,11 +457,12 @@ static bool prepare(model *m, switches *s)
     if (s->hold_kinds == 0) return !m->arena->failed && !m->graph->too_large;
     bool *taken = arena_room(m->arena, 2 * (m->accel_count + 1) * sizeof *taken), *tried = taken + m->accel_count + 1;
     if (!taken) return false;
-    for (size_t k = 0; k < s->kinds; k++) {
+    node *const waits = rests; /* which is no longer needed */
+    for (size_t k = 0; k < s->kinds; k++) waits[k] = s->as[k] == k ? value[k] : NO_NODE;
+    for (size_t k; (k = next_resting(m, s, taken, waits)) < s->kinds;) {
         graph *g = m->graph;
         output rate = s->rate[k];
         size_t at = 0;
-        if (value[k] == NO_NODE || s->as[k] != k) continue;
         /* it contains what holds the others, and what rests */
         rate.value = with_sides(g, rate.value, rate.loops, &with_values);
         memcpy(tried, taken, m->accel_count * sizeof *tried);

@@ -25,6 +25,10 @@ static size_t length_of(const model *m, uint16_t list)
 /* Returns what follows from an interval, or NaN where the points do not rise. */
 static double within(double width, double value) { return width > 0 ? value : NAN; }
 
+/* Tells whether a row is computed from its right end, where it is then exactly 0. A motion may rest there, and what
+ * rounding left from the other end would move it. */
+static bool ends_at_zero(const double *y) { return y[1] == 0 && y[0] != 0; }
+
 static void fill_list(double *to, const double *list, size_t n)
 {
     to[0] = NAN;
@@ -80,6 +84,8 @@ static void fill_spline(double *to, const double *x, const double *y, size_t n)
         r[2] = (y[k + 1] - y[k]) / width - width * (2 * m + next) / 6;
         r[3] = m / 2;
         r[4] = (next - m) / (6 * width);
+        if (!ends_at_zero(y + k)) continue;
+        r[0] = x[k + 1], r[1] = within(width, 0), r[2] += width * (m + next) / 2, r[3] = next / 2;
     }
 }
 
@@ -90,6 +96,7 @@ static void fill_linear(double *to, const double *x, const double *y, size_t n)
         double *r = to + (k + 1) * COLUMNS;
         const double width = x[k + 1] - x[k];
         r[0] = x[k], r[1] = within(width, y[k]), r[2] = (y[k + 1] - y[k]) / width;
+        if (ends_at_zero(y + k)) r[0] = x[k + 1], r[1] = within(width, 0);
     }
 }
 

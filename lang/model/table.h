@@ -15,7 +15,8 @@
 typedef enum table_kind {
     TABLE_LIST,   /* a column: row k is entry k of a list, row 0 is not a number */
     TABLE_POINTS, /* four columns, for FIND: see table_position */
-    TABLE_LINEAR, /* three columns: point x, value c0, slope c1: c0 + c1 (u - x) */
+    TABLE_LINEAR, /* three columns: point x, value c0, slope c1: c0 + c1 (u - x); x is the first point, or the second,
+                   * where only there the value is 0 */
     TABLE_SPLINE  /* five columns: x, c0 … c3: the natural cubic spline, of second derivatives 0 at both ends */
 } table_kind;
 enum { TABLE_BEYOND = 16 };
