@@ -46,7 +46,7 @@ static int64_t good_steps(stepper *s, int bad)
 /* Repeats the steps from the snapshot to the last good one, which may itself end with STEP_STALLED. */
 static void repeat(stepper *s, int64_t good)
 {
-    const int bad = s->body->run(&s->work, good - s->work.n);
+    const int bad = stepper_repeat(s, good - s->work.n);
     if (bad && !(bad == STEP_STALLED && s->work.n == good)) go_back(s);
 }
 
@@ -62,7 +62,7 @@ static motus_status recover(stepper *s, int bad, motus_error *err)
         const int64_t end = w->n;
         w->check = true;
         go_back(s);
-        if (s->body->run(w, end - w->n) == STEP_DIVERGED) {
+        if (stepper_repeat(s, end - w->n) == STEP_DIVERGED) {
             bad = STEP_DIVERGED;
             t = time_now(w);
             good = good_steps(s, bad);
@@ -161,7 +161,11 @@ static motus_status whole_steps(stepper *s, int64_t steps, const stepper_body *b
         const int64_t due = paced ? STEPPER_PACE - w->n % STEPPER_PACE : INT64_MAX, most = room_of(s),
                       room = most < due ? most : due, chunk = end - w->n < room ? end - w->n : room;
         if (s->left_steps != w->n) s->left = false;
+        const whole before = w->n;
         int bad = w->rise == STEPPER_BLURS ? STEP_STALLED : take_steps(s, body, chunk);
+        /* all steps are taken, and only the next one is too short */
+        if (bad == STEP_STALLED && w->n == before + chunk && stepper_may_blur(s))
+            bad = STEP_OK, w->rise = STEPPER_BLURS;
         if (bad == STEP_STALLED && stepper_blurred(s, body)) continue;
         if (!bad) bad = settle(s);
         if (bad) return recover(s, bad, err);
@@ -269,7 +273,7 @@ static motus_status take_back(stepper *s, double h, motus_error *err)
     const int64_t before = w->n - 1, evaluations = w->evaluations, iterations = w->iterations, refused = w->refused;
     const double t = time_now(w);
     go_back(s);
-    const int bad = before > w->n ? s->body->run(w, before - w->n) : STEP_OK;
+    const int bad = stepper_repeat(s, before - w->n);
     if (bad) return stepper_report(s, bad, t, err);
     w->next = h, w->rise = 0;
     w->evaluations = evaluations, w->iterations = iterations, w->refused = refused + 1;
@@ -414,12 +418,12 @@ motus_status stepper_again(stepper *s, motus_error *err)
     if (s->at.steps < 0 || (!shortened && s->at.steps >= end)) return MOTUS_OK;
     s->arrived = false;
     go_back(s);
-    int bad = shortened || end - 1 == w->n ? STEP_OK : s->body->run(w, end - 1 - w->n);
+    int bad = shortened ? STEP_OK : stepper_repeat(s, end - 1 - w->n);
     motus_status status = bad ? stepper_report(s, bad, time_now(w), err) : stepper_mark(s, err);
     if (status) return status;
     if (shortened)
         status = short_step(s, last, s->body, err);
-    else if ((bad = s->body->run(w, 1)))
+    else if ((bad = stepper_repeat(s, 1)))
         status = stepper_report(s, bad, time_now(w), err);
     s->arrived = arrived && !status;
     return status;

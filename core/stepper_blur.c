@@ -34,13 +34,15 @@ static void find_blur(const stepper *s, double h, double *a, double *later, doub
     }
 }
 
+bool stepper_may_blur(const stepper *s) { return s->problem.traits.time && stepper_refuses(&s->method); }
+
 void stepper_expect_blur(stepper *s, double until)
 {
     work *w = &s->work;
     const problem *p = &s->problem;
     const double ulp = nextafter(fabs(w->t), INFINITY) - fabs(w->t), h = until - w->t;
     const size_t whole[2] = {0, p->nv}, *const variable = p->variables ? p->variables : whole;
-    if (!p->traits.time || !stepper_refuses(&s->method) || !(fabs(h) * w->relative < BLUR * ulp)) return;
+    if (!stepper_may_blur(s) || !(fabs(h) * w->relative < BLUR * ulp)) return;
     double *room = take(&s->allocator, 3 * w->nv + w->nx + 1, sizeof *room);
     if (!room) return; /* then error control takes more steps */
     double *const blur = room, *const later = room + w->nv;
@@ -62,11 +64,13 @@ static double within(const work *w, double h)
     return 2 * fabs(h) > fabs(left) ? left / 2 : h;
 }
 
-/* Tries candidates from the size that error control would have tried first. */
-static bool try_all(stepper *s, const stepper_body *body, double *room)
+/* Takes a step by candidates from the size that error control tries first. False: there is none, or no memory. */
+static bool take_step(stepper *s, const stepper_body *body)
 {
     work *w = &s->work;
-    double *const a = room, *const later = a + w->nv, *const v = later + w->nv, *const x = v + w->nv;
+    double *const a = take(&s->allocator, 3 * w->nv + w->nx + 1, sizeof *a);
+    if (!a) return false;
+    double *const later = a + w->nv, *const v = later + w->nv, *const x = v + w->nv;
     const whole good = w->n;
     const double ulp = nextafter(fabs(w->t), INFINITY) - fabs(w->t);
     int bad = STEP_STALLED;
@@ -79,23 +83,30 @@ static bool try_all(stepper *s, const stepper_body *body, double *room)
         w->watch = NULL;
         w->blur = NULL;
     }
-    if (fabs(w->h) * w->relative < BLUR * ulp) w->rise = STEPPER_BLURS;
+    give(&s->allocator, a);
+    w->rise = fabs(w->h) * w->relative < BLUR * ulp ? STEPPER_BLURS : CONTROL_RISE;
     return w->n > good && !s->body->check(w);
+}
+
+int stepper_repeat(stepper *s, int64_t steps)
+{
+    work *w = &s->work;
+    const whole end = w->n + steps;
+    while (w->n < end && w->rise == STEPPER_BLURS)
+        if (!take_step(s, w->host ? stepper_best_body() : s->body)) return STEP_STALLED;
+    return w->n < end ? s->body->run(w, end - w->n) : STEP_OK;
 }
 
 bool stepper_blurred(stepper *s, const stepper_body *body)
 {
     work *w = &s->work;
     const stepper_count now = {w->n, w->evaluations, w->iterations, w->refused};
-    if (!s->problem.traits.time || !stepper_refuses(&s->method)) return false;
-    double *room = take(&s->allocator, 3 * w->nv + w->nx + 1, sizeof *room);
-    if (!room) return false;
+    if (!stepper_may_blur(s)) return false;
     stepper_put(s, s->at, s->snapshot); /* a candidate that is refused changes the size of the next one */
-    const int bad = now.steps == w->n ? STEP_OK : s->body->run(w, now.steps - w->n);
-    bool done = !bad || (bad == STEP_STALLED && w->n == now.steps);
+    const int bad = stepper_repeat(s, now.steps - w->n);
+    if (bad && !(bad == STEP_STALLED && w->n == now.steps)) return false;
     w->evaluations = now.evaluations, w->iterations = now.iterations, w->refused = now.refused;
-    done = done && stepper_mark(s, NULL) == MOTUS_OK && try_all(s, w->host ? stepper_best_body() : body, room);
-    if (done) s->at = stepper_get(s, s->snapshot); /* so that nothing repeats the step without this */
-    give(&s->allocator, room);
-    return done;
+    w->rise = STEPPER_BLURS;
+    s->at = stepper_get(s, s->snapshot); /* from which the step can be repeated */
+    return stepper_mark(s, NULL) == MOTUS_OK && take_step(s, w->host ? stepper_best_body() : body);
 }

@@ -70,11 +70,14 @@ motus_status stepper_right_end(stepper *, motus_error *);
 /* stepper_start.c. Begins a leg at a state, without checks. */
 void stepper_begin(stepper *, double t0, double h, const double *x, const double *v);
 
-/* stepper_blur.c. Takes a step where error control finds none because times are rounded, and a snapshot after it.
- * False: that is not why, and the caller goes back. While rounded times may still be why, the next step's `rise` is
+/* stepper_blur.c. Takes a step where error control finds none because times are rounded, and a snapshot before it.
+ * False: that is not why, and the caller goes back. Before such a step, and while rounded times may be why, `rise` is
  * STEPPER_BLURS, a little less than CONTROL_RISE. */
 #define STEPPER_BLURS 2.25
 bool stepper_blurred(stepper *, const stepper_body *);
+bool stepper_may_blur(const stepper *);
+/* Takes steps from a snapshot again, to equal bits. Returns STEP_OK or what stopped them. */
+int stepper_repeat(stepper *, int64_t steps);
 
 /* stepper_advance.c. Repeats the last step, with a mark before it. */
 motus_status stepper_again(stepper *, motus_error *);
