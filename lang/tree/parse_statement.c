@@ -60,6 +60,20 @@ static void parse_value(parser *p, statement *s)
     parse_end(p, source_line(p->source, &s->at));
 }
 
+/* Refuses x'' = -x + x > 0, which is 1 where -x + x > 0, and may be meant as -x + (x > 0). */
+static void refuse_condition(parser *p, const statement *s)
+{
+    const tree *first = s->value;
+    while ((first->kind == TREE_AND || first->kind == TREE_OR) && !first->bracketed) first = first->item[0];
+    if (first->kind != TREE_COMPARE || first->bracketed || first->item[0]->bracketed) return;
+    const tree_kind compared = first->item[0]->kind;
+    if (compared != TREE_ADD && compared != TREE_SUBTRACT && compared != TREE_MULTIPLY && compared != TREE_NEGATE)
+        return;
+    char all[80];
+    COMPLAIN(p, &s->value_at, "this can be read in two ways: as a condition, 1 or 0, or as a term with one");
+    HINT(p, "write (%s), or put the brackets around the condition alone", quote(p, &s->value_at, all));
+}
+
 /* Returns whether a terminal can show a text: it is UTF-8 without control characters. */
 static bool plain_text(const char *bytes, uint32_t length)
 {
@@ -337,6 +351,7 @@ static void parse_statement(parser *p, statement *s)
         s->kind = exact ? STATEMENT_EXACT : STATEMENT_INVARIANT;
     }
     parse_value(p, s);
+    if (s->kind == STATEMENT_EQUATION && !failed(p)) refuse_condition(p, s);
     if (s->kind == STATEMENT_EQUATION && s->applied && !failed(p)) parse_solve(p, s);
 }
 
