@@ -18,8 +18,8 @@ bool events_clear(const events *e, size_t f)
 /* Writes into e->width an error bound of every number of the state at `here`, a time h after `left`, of two terms:
  * - rounding: the errors of all steps so far add up as a random walk. The error counts from the latest root of the
  *   function on, so a number counts with its largest size since then.
- * - the error of the step that leads here, where steps adapt: twice the difference from two half steps. */
-static void bound_state(events *e, size_t f, double h)
+ * - with `halves`, the error of the step that leads here: twice the difference from two half steps. */
+static void bound_state(events *e, size_t f, double h, bool halves)
 {
     const size_t nx = e->problem.nx, nv = e->problem.nv, moving = nx - e->problem.modes;
     const double jogged = e->jog ? 3 : 1; /* the numbers of a companion were also moved by a unit */
@@ -28,7 +28,7 @@ static void bound_state(events *e, size_t f, double h)
     const instant *here = &e->here, *from = &e->left;
     instant *to = &e->next;
     events_copy(e, to, here);
-    if (row_adaptive(&e->method) && from->t + h / 2 != from->t && from->t + h / 2 != from->t + h) {
+    if (halves && from->t + h / 2 != from->t && from->t + h / 2 != from->t + h) {
         double t, lost;
         motus_status failed = events_probe(e, from->t, from->lost, from->x, from->v, h / 2, &t, &lost, NULL);
         if (!failed) failed = stepper_sync(e->probe, to->x, to->v, NULL, NULL);
@@ -69,13 +69,14 @@ static motus_status raise_by_change(events *e, size_t f, bool rate, int bit, siz
 
 /* Bounds the error of a function, or of its rate, by those of the state: by the sum of the changes by each number or,
  * where numbers are too many for that, by twice the largest change by some patterns of signs. */
-static motus_status error_by_state(events *e, size_t f, bool rate, double h, double *bound, motus_error *err)
+static motus_status error_by_state(events *e, size_t f, bool rate, double h, bool halves, double *bound,
+                                   motus_error *err)
 {
     enum { FEW = 32 };
     const size_t all = e->problem.nx + e->problem.nv;
     motus_status status = MOTUS_OK;
     *bound = 0;
-    bound_state(e, f, h);
+    bound_state(e, f, h, halves);
     for (size_t k = 0; k < all && all <= FEW && !status; k++) {
         double by = 0;
         if (e->width[k] > 0) status = raise_by_change(e, f, rate, -1, k, &by, err);
@@ -91,14 +92,27 @@ static motus_status error_by_state(events *e, size_t f, bool rate, double h, dou
 
 motus_status events_error_of(events *e, size_t f, double h, double *bound, motus_error *err)
 {
-    const motus_status status = error_by_state(e, f, false, h, bound, err);
+    const motus_status status = error_by_state(e, f, false, h, row_adaptive(&e->method), bound, err);
     *bound += e->here.bound[f] + fabs(e->here.rate[f]) * events_ulp(e->here.t);
+    return status;
+}
+
+motus_status events_step_keeps(events *e, size_t f, bool *does, motus_error *err)
+{
+    double bound;
+    *does = false;
+    events_copy(e, &e->here, &e->right);
+    motus_status status = events_judge(e, &e->here, err);
+    if (!status) status = error_by_state(e, f, false, e->span, true, &bound, err);
+    if (status || !(fabs(e->right.g[f] - e->left.g[f]) <= bound)) return status;
+    status = events_at_of(e, f, e->span / 2, &e->here, err); /* by a true step: dense output errs more */
+    *does = !status && fabs(e->here.g[f] - e->left.g[f]) <= bound;
     return status;
 }
 
 motus_status events_slope_error_of(events *e, size_t f, double h, double *bound, motus_error *err)
 {
-    const motus_status status = error_by_state(e, f, true, h, bound, err);
+    const motus_status status = error_by_state(e, f, true, h, row_adaptive(&e->method), bound, err);
     if (e->marked) *bound += 0x1p-52 * fmax(fabs(e->left.rate[f]), fabs(e->right.rate[f]));
     return status;
 }

@@ -245,7 +245,9 @@ static bool leave(events *e, size_t f, const search *of, const roots_found *foun
     const bool internal = r->internal;
     /* a function that is smooth on the step leaves 0 at once or never */
     const bool at_once = found->leaves < 0x1p-20 || (e->rules.settle && r->smooth && of->part->from <= 0);
-    if (e->first && of->part->from <= 0 && found->leaves < 1 && !internal) { /* the start is not an event */
+    /* the start is not an event, nor is the end of a rest that may have been mere error */
+    const bool quiet = e->first || (e->open[f] && r->kind == RULE_ROOT);
+    if (quiet && of->part->from <= 0 && found->leaves < 1 && !internal) {
         e->side[f] = (int8_t)after;
         return true;
     }
@@ -400,6 +402,20 @@ static bool stays(const events *e, size_t f, const part *p, double largest, doub
     return largest <= hidden && (!e->heads[f] || way <= hidden);
 }
 
+/* Tells whether a function that stands at 0 without a slope moves in the whole step by no more than the error of the
+ * step, so that the exact motion may keep it at 0. Then it is `open` too. */
+static motus_status stays_by_error(events *e, size_t f, const part *p, double largest, double hidden, bool *does,
+                                   motus_error *err)
+{
+    enum { BITS = 40 }; /* a larger movement is no error of a step */
+    *does = false;
+    if (e->heads[f] || p->from > 0 || p->to < 1 || !(largest <= ldexp(hidden, BITS))) return MOTUS_OK;
+    if (e->rules.rule[e->rule_of[f]].internal) return MOTUS_OK;
+    const motus_status status = events_step_keeps(e, f, does, err);
+    e->open[f] |= *does;
+    return status;
+}
+
 /* Adds the candidates of a part of the step, from the values of a function at its points. *sign is first the function's
  * sign before the part, 0 where it stands at 0, and afterwards its sign at the end. *rough: no polynomial fits the
  * values. */
@@ -423,9 +439,11 @@ static motus_status search_part(events *e, stepper *s, size_t f, const part *p, 
     const double moved = steepest * events_ulp(e->right.t) / fabs(e->span * (p->to - p->from));
     double rounding = largest * 0x1p-44 + moved, hidden = 0;
     if (stands) {
-        const motus_status judged = judge_dense(e, f, largest, &hidden, err);
-        if (judged) return judged;
-        if (stays(e, f, p, largest, hidden)) return MOTUS_OK;
+        bool by_error = false;
+        motus_status judged = judge_dense(e, f, largest, &hidden, err);
+        const bool by_rounding = !judged && stays(e, f, p, largest, hidden);
+        if (!judged && !by_rounding) judged = stays_by_error(e, f, p, largest, hidden, &by_error, err);
+        if (judged || by_rounding || by_error) return judged;
     }
     roots_fitted fitted;
     roots_fit_status fit;

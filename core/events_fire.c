@@ -23,15 +23,16 @@ static double bound_of(const events *e, size_t f)
     return fmin(here, 4 * fmax(e->left.bound[f], e->right.bound[f]) + 0x1p-44 * ends);
 }
 
-/* Tells whether a function is 0 at `here`, but for its rounding error and that of the time. The bound takes every
- * number of the state as rounded by half a unit in the last place; those of a companion were also moved by a whole
- * unit. */
+/* Returns what a bound on rounding counts: it takes every number of the state as rounded by half a unit in the last
+ * place, and those of a companion were also moved by a whole unit. */
+static double units_of(const events *e) { return e->jog ? 3 : 1; }
+
+/* Tells whether a function is 0 at `here`, but for its rounding error and that of the time. */
 static bool is_zero(const events *e, size_t f)
 {
     const instant *at = &e->here;
-    const double units = e->jog ? 3 : 1;
     return !events_far(e, &e->here, f) &&
-           fabs(at->g[f]) <= units * bound_of(e, f) + fabs(at->rate[f]) * events_ulp(at->t);
+           fabs(at->g[f]) <= units_of(e) * bound_of(e, f) + fabs(at->rate[f]) * events_ulp(at->t);
 }
 
 /* Tells whether a function is beyond 0 at `here` because it has jumped: its value exceeds its change within the
@@ -198,7 +199,8 @@ static motus_status look_again(events *e, size_t k, size_t i, motus_error *err)
         if (!own && fabs(at->rate[f] - rate[f]) > 0x1p-40 * fabs(rate[f])) e->fired[f] = NAN;
         /* a function that was 0 and has not changed stays 0, whatever its rate is now; so does one moved by a switch */
         const double moved = e->rules.settle ? fabs(at->g[f]) - fabs(e->before[f]) : fabs(at->g[f] - e->before[f]);
-        const bool still = e->zero[f] && moved <= at->bound[f];
+        const bool still = e->zero[f] && moved <= units_of(e) * at->bound[f];
+        if (e->open[f] && fabs(at->rate[f]) > 2 * fabs(rate[f])) e->level[f] = 0;
         e->zero[f] = still || is_zero(e, f);
         level |= may_be_level(e, f, rate[f]);
     }
@@ -422,6 +424,36 @@ static int goes_on(const events *e, size_t f, const candidate *c, bool acted)
     return own || touched || touching(e, f) ? e->side[f] : leaves(e, f, c, acted);
 }
 
+/* What `touched` tells of a function in this instant. */
+enum {
+    TOUCHED = 1, /* its touch has happened */
+    CAME = 2,    /* it has come to 0 in the step that leads here */
+    SEEN = 4     /* it has passed 0 before the eyes of a rule that leaves the motion as it is */
+};
+
+/* Sets `touched` before any rule has acted. A candidate that was followed a rounding ago, or that was no event because
+ * of its direction, may be the passage of this very instant: then an action of another rule may still send the function
+ * back. */
+static void see_arrivals(events *e)
+{
+    for (size_t f = 0; f < e->rules.functions; f++)
+        e->touched[f] = e->zero[f] && e->side[f] && !e->stands[f] ? CAME : 0;
+    for (size_t k = 0; k < e->candidates; k++) {
+        const candidate *c = &e->candidate[k];
+        if (c->kind == CANDIDATE_TIME || !c->kind || c->jumps || !e->zero[c->of] || !(c->idle ? c->gone : c->followed))
+            continue;
+        const rule *r = &e->rules.rule[e->rule_of[c->of]];
+        const double near = 4 * events_ulp(e->here.t);
+        const bool around = e->way * (e->here_at - c->low) >= -near && e->way * (c->high - e->here_at) >= -near;
+        if (r->kind != RULE_ROOT || r->assigns || e->side[c->of] != (int)c->kind) continue;
+        if (!(c->idle ? around : fabs(c->at - e->here_at) <= near)) continue;
+        if (c->idle)
+            e->side[c->of] = (int8_t)-c->kind, e->touched[c->of] |= CAME;
+        else
+            e->touched[c->of] |= SEEN;
+    }
+}
+
 /* Moves on to the limit of a rule's events if they accumulate, after an event has acted. */
 static motus_status approach(events *e, size_t k, size_t i, motus_error *err)
 {
@@ -441,7 +473,7 @@ static motus_status ask_arrived(events *e, size_t k, size_t i, size_t f, bool *a
     const int to = e->arrives[f] - 2;
     e->arrives[f] = 0;
     e->fired[f] = e->here.t;
-    e->touched[f] = to == CANDIDATE_TOUCHES;
+    e->touched[f] = to == CANDIDATE_TOUCHES ? TOUCHED : 0;
     if (to) e->side[f] = (int8_t)to;
     if (r->direction && r->direction != to) return MOTUS_OK;
     *again |= r->assigns;
@@ -457,19 +489,31 @@ static motus_status ask_root(events *e, size_t k, size_t i, const candidate *c, 
     if (e->zero[f] && e->arrives[f]) return ask_arrived(e, k, i, f, acted, again, err);
     if (!e->zero[f] || (e->fired[f] == e->here.t && !*acted)) return MOTUS_OK;
     const bool told = e->fired[f] == e->here.t;
-    if (e->touched[f] && !moves(e, f)) return MOTUS_OK;
+    if (e->touched[f] & TOUCHED && !moves(e, f)) return MOTUS_OK;
     const int to = leaves(e, f, c, *acted);
+    if (e->touched[f] & SEEN && *acted) {
+        if (to) e->side[f] = (int8_t)to;
+        e->fired[f] = e->here.t;
+        return MOTUS_OK;
+    }
     candidate *touch = told || here ? NULL : touching(e, f);
     if (touch || (here && !told && c->kind == CANDIDATE_TOUCHES)) {
         e->fired[f] = e->here.t;
-        e->touched[f] = 1;
+        e->touched[f] |= TOUCHED;
         if (touch) touch->gone = true;
         if (r->direction) return MOTUS_OK;
         *again |= r->assigns;
         return happen(e, k, i, true, acted, err);
     }
+    /* the action of another rule has sent it back to the side from which it came */
+    if (*acted && !told && !r->assigns && !r->internal && e->touched[f] & CAME && (to == 0 || to == e->side[f])) {
+        e->touched[f] = TOUCHED | SEEN;
+        e->fired[f] = e->here.t;
+        return r->direction ? MOTUS_OK : happen(e, k, i, true, acted, err);
+    }
     /* a function that has been 0 since the start leaves 0 in this instant only by an action */
     if (to == 0 || (e->side[f] ? to == e->side[f] : !here && !*acted)) return MOTUS_OK;
+    if (!r->assigns) e->touched[f] |= SEEN;
     if (r->direction && r->direction != to) {
         e->side[f] = (int8_t)to;
         return MOTUS_OK;
@@ -560,7 +604,7 @@ static motus_status ask(events *e, size_t k, const candidate *c, bool *acted, bo
         if (r->kind == RULE_CONDITION) status = ask_condition(e, k, i, c, acted, again, err);
     }
     if (r->kind == RULE_ACCUMULATES && e->has_limit && e->limit.rule == r->of && !e->limit_told) {
-        e->limit_told = true;
+        events_limit_is_told(e);
         *again = true;
         status = happen(e, k, r->instances > e->limit.instance ? e->limit.instance : 0, false, acted, err);
     }
@@ -609,6 +653,9 @@ static bool is_passed(const events *e, size_t f)
 {
     return is_zero(e, f) || (e->side[f] && sign_of(e->here.g[f]) == -e->side[f] && !jumps_here(e, f));
 }
+
+/* Tells whether a function has stood at 0 in the whole step, but for the error of the step. */
+static bool rests(const events *e, size_t f) { return e->stands[f] && e->open[f]; }
 
 /* ---- few of many rules ---- */
 
@@ -694,7 +741,7 @@ static motus_status look_at_all(events *e, motus_error *err)
         status = events_values(e, &e->here, err);
         if (!status) status = events_judge(e, &e->here, err);
     }
-    for (size_t f = 0; f < e->rules.functions; f++) e->zero[f] = is_passed(e, f);
+    for (size_t f = 0; f < e->rules.functions; f++) e->zero[f] = is_passed(e, f) || rests(e, f);
     return status;
 }
 
@@ -748,12 +795,13 @@ motus_status events_fire(events *e, const candidate *c, bool *assigned, motus_er
     motus_status status = look_at_all(e, err);
     if (status) return status;
     mark_located(e, c);
+    for (size_t f = 0; f < e->rules.functions; f++) e->level[f] |= rests(e, f);
     if (ends_step(e, c)) {
         status = touch_too(e, err);
         if (status) return status;
     }
     memset(e->ticked, 0, e->rules.count);
-    memset(e->touched, 0, e->rules.functions);
+    see_arrivals(e);
     memset(e->arrives, 0, e->rules.functions);
     events_overlay(e, e->here.x);
     const size_t last = e->rules.count - 1;

@@ -144,7 +144,7 @@ struct events {
     double blurred;  /* the time within which rounding of the state hides the root of a function that is not flat */
     bool awaits;     /* a switch of the force is to turn in this instant */
     /* an entry for each function: */
-    uint8_t *touched; /* its touch of 0 has happened in this instant */
+    uint8_t *touched; /* what has happened to it in this instant: events_fire.c */
     uint8_t *arrives; /* a turn has led it to 0 in this instant, where the motion rests: candidate_kind + 2; else 0 */
     uint8_t *look;    /* the bounds do not exclude a root, so dense output is searched for roots */
     uint8_t *passed;  /* it has passed 0 in watched steps without an event; `side` does not know of it yet */
@@ -293,6 +293,8 @@ bool events_accumulate(events *, size_t rule, size_t instance, double t);
 /* Sets the limit of a rule whose events at t follow one another too fast to be distinguished: t, or as long after t as
  * the latest intervals let more events come. */
 void events_end_here(events *, size_t rule, size_t instance, double t);
+/* Notes that a rule answers to the limit. */
+void events_limit_is_told(events *);
 /* Keeps the state at `here` after an action, with which the next action of the rule is compared. */
 void events_after(events *, size_t rule, size_t instance);
 /* Moves `here` to the limit: its time, and the state to which the latest two states lead. */
@@ -321,6 +323,9 @@ bool events_clear(const events *, size_t function);
 /* Bounds the error of a function at `here`, a time h after `left`, whose rates and bounds are known: from rounding
  * since the start and, where h is not 0, from the estimated error of the true step to `here`. */
 motus_status events_error_of(events *, size_t function, double h, double *bound, motus_error *);
+/* Tells whether a function moves, from the start of the step to its middle and its end, by no more than the error of
+ * the step. */
+motus_status events_step_keeps(events *, size_t function, bool *does, motus_error *);
 /* Bounds the error of a function's rate at `here`, a time h after `left`. */
 motus_status events_slope_error_of(events *, size_t function, double h, double *bound, motus_error *);
 /* Bounds the error of the time of a root or touch at `here`, a time h after `left`, where the function is flat: the

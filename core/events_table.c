@@ -227,13 +227,32 @@ static void set_limit(events *e, size_t rule, size_t instance, double t, const t
     e->limit = (events_limit){rule, instance, t + e->way * k->left, k->error + 2 * events_ulp(t), events_lasting(e, t)};
 }
 
-/* Returns how far the time of an event may be off by its own rounding and by that of the function. */
-static double noise_of(const events *e, size_t rule, size_t instance, double t)
+/* Returns the function that has led to an event: of the leaves of a condition that are at 0, the one whose rounding
+ * hides its time most. SIZE_MAX: none is. */
+static size_t function_of(const events *e, size_t rule, size_t instance)
 {
     const struct rule *of = &e->rules.rule[rule];
-    const size_t f = of->first + instance;
-    const double hidden = of->kind == RULE_ROOT ? e->here.bound[f] / fabs(e->here.rate[f]) : 0;
-    return events_ulp(t) + hidden;
+    const double *const rate = e->here.rate, *const bound = e->here.bound;
+    size_t which = of->kind == RULE_ROOT ? of->first + instance : SIZE_MAX;
+    for (size_t l = 0; of->kind == RULE_CONDITION && l < of->leaves; l++) {
+        const size_t f = of->first + l * of->instances + instance;
+        if (!e->zero[f] || !(fabs(rate[f]) > 0)) continue;
+        if (which == SIZE_MAX || bound[f] / fabs(rate[f]) > bound[which] / fabs(rate[which])) which = f;
+    }
+    return which;
+}
+
+/* Returns how far the time of an event may be off by its own rounding and by that of the function. */
+static double noise_of(const events *e, size_t f, double t)
+{
+    return events_ulp(t) + (f == SIZE_MAX ? 0 : e->here.bound[f] / fabs(e->here.rate[f]));
+}
+
+/* Tells whether a limit at t is one that a rule has answered to: its action has not ended the sequence. */
+static bool is_told(const events *e, size_t rule, size_t instance, double t, double error)
+{
+    const bool same = e->has_limit && e->limit.rule == rule && e->limit.instance == instance;
+    return same && fabs(t - e->limit.t) <= error + e->limit.error;
 }
 
 /* Tells whether events whose intervals shrink by a nearly constant ratio accumulate now: the time left before the limit
@@ -253,21 +272,30 @@ bool events_accumulate(events *e, size_t rule, size_t instance, double t)
         to[0] = t;
     }
     e->tail /= 2; /* not 0 at once, because rounding may spoil the intervals of an event or two */
-    const bool same = e->limit.rule == rule && e->limit.instance == instance;
     if (e->tail < events_ulp(t)) e->tail = 0;
-    if (r->number < RECENT || (e->has_limit && (same || !e->limit_told))) return false;
-    const double one = fabs(r->t[0] - r->t[1]), ulp = events_ulp(t), noise = noise_of(e, rule, instance, t);
-    if (!best_tail(r, levels, noise, false, &k)) return false;
+    if (r->number < RECENT || (e->has_limit && !e->limit_told)) return false;
+    const size_t f = function_of(e, rule, instance);
+    const double one = fabs(r->t[0] - r->t[1]), two = fabs(r->t[1] - r->t[2]), ulp = events_ulp(t),
+                 noise = noise_of(e, f, t);
+    if (!best_tail(r, levels, noise, false, &k)) {
+        /* where an action leaves ever smaller parts of the speed, rounding may hide the next flight */
+        const bool low = f != SIZE_MAX && one < two / 2 && fabs(e->here.rate[f]) * one / 4 <= e->here.bound[f];
+        if (!low || is_told(e, rule, instance, t, noise)) return false;
+        events_end_here(e, rule, instance, t);
+        e->limit_part = 0, e->limit_part_error = 1;
+        return true;
+    }
     /* two events in one instant, as when a ball meets two others at once, do not continue a sequence */
-    if (one + 2 * noise < fabs(r->t[1] - r->t[2]) * k.ratio / 4) return false;
+    if (one + 2 * noise < two * k.ratio / 4) return false;
     if (k.error < k.left / 4) e->tail = k.left;
     if (k.left > ULPS * ulp && one * k.ratio > ULPS_EACH * ulp) {
         /* a function's own rounding may hide it long before */
-        const size_t f = of->first + instance;
+        if (f == SIZE_MAX) return false;
         const double top = fabs(e->here.rate[f]) * one * k.ratio / 4; /* on a parabola */
-        if (of->kind != RULE_ROOT || !(top <= HIDDEN * e->here.bound[f])) return false;
+        if (!(top <= HIDDEN * e->here.bound[f])) return false;
         if (!(k.error < k.left)) return false; /* equal intervals end nowhere, and a function may stay 0 */
     }
+    if (is_told(e, rule, instance, t + e->way * k.left, k.error)) return false;
     set_limit(e, rule, instance, t, &k);
     e->limit_part = k.ratio / (1 - k.ratio);
     e->limit_part_error = (k.error + noise * e->limit_part) / one;
@@ -279,7 +307,7 @@ void events_end_here(events *e, size_t rule, size_t instance, double t)
     const struct rule *of = &e->rules.rule[rule];
     const recent *r = &e->recent[e->instances[rule] + instance];
     tail k = {0};
-    const double all = noise_of(e, rule, instance, t), noise = isfinite(all) ? all : events_ulp(t);
+    const double all = noise_of(e, function_of(e, rule, instance), t), noise = isfinite(all) ? all : events_ulp(t);
     if (r->number >= RECENT && !best_tail(r, recent_levels(of), noise, false, &k)) {
         /* the latest intervals are mere rounding: the time left is as uncertain as it is long */
         const double one = fabs(r->t[0] - r->t[1]), two = fabs(r->t[1] - r->t[2]), ratio = one / two;
@@ -289,6 +317,12 @@ void events_end_here(events *e, size_t rule, size_t instance, double t)
     k.error += noise;
     set_limit(e, rule, instance, t, &k);
     memset(e->limit_off, 0, (e->problem.nx + e->problem.nv) * sizeof *e->limit_off);
+}
+
+void events_limit_is_told(events *e)
+{
+    e->limit_told = true;
+    e->recent[e->instances[e->limit.rule] + e->limit.instance].number = 0; /* another limit is that of other events */
 }
 
 void events_after(events *e, size_t rule, size_t instance)
