@@ -55,6 +55,7 @@ typedef struct rule {
     bool records;            /* its events are rows in the table of events */
     bool assigns;            /* `act` changes numbers on which the motion or a rule depends: it ends the step */
     bool keeps;              /* `act` changes only numbers that observers alone read: it ends no step */
+    bool timed;              /* its functions depend on the time alone */
     bool smooth;             /* its functions are known to have neither jumps nor kinks */
     const char *jump;        /* an operation of its functions that may jump, as text: "floor(x)"; NULL: there is none */
     int64_t stop;            /* the run ends at this event of the rule: 1 `stop`, N `stop after N`, 0 never */

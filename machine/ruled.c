@@ -404,6 +404,13 @@ static bool is_smooth(const model *m, const model_rule *r)
     return true;
 }
 
+static bool is_timed(const model *m, const model_rule *r)
+{
+    unsigned deps = 0;
+    for (size_t k = 0; k < r->leaves; k++) deps |= graph_deps(m->graph, r->leaf[k].value);
+    return (deps & DEP_TIME) && !(deps & (DEP_STATE | DEP_D));
+}
+
 static void describe(const model_rule *from, rule *to)
 {
     *to = (rule){.name = from->name,
@@ -436,6 +443,7 @@ static bool make(ruled *r, model *m)
         const model_rule *rule = &m->rules[i];
         describe(rule, &r->rule[i]);
         r->rule[i].jump = jump_of(m, rule);
+        r->rule[i].timed = is_timed(m, rule);
         r->rule[i].smooth = is_smooth(m, rule);
         r->act[i] = rule->assignments ? make_act(m, rule) : NULL;
         if (rule->assignments && !r->act[i]) return false;

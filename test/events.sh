@@ -34,6 +34,7 @@ that "... how many are left out" says "… 122 more"
 that "... and where they are" says "--events FILE writes all events"
 that "... with the state on arrival" eval "grep -qE '^  bounce +0\.451523640985730[89] +1 +[^ ]+ +-4\.429446918' '$out'"
 
+that "... which is before the end" says "the run ends there, before t = 5: \`when bounce accumulates: …\` says how it goes on"
 gives "the events as CSV" 0 "$motus" run "$ball" --error none --events "$place/events.csv" --quiet
 that "... say nothing else" empty "$out"
 that "... have a head" eval "[ \"\$(head_of '$place/events.csv')\" = \"event,t,count,touched,y,y',energy,y.after,y'.after,energy.after\" ]"
@@ -544,6 +545,11 @@ that "  end on the plate" holds '.quantities.on_plate == 1 and .state.y == .quan
 text "g = 10; e = 0.5; rest = 0\ny'' = if(rest, 0, -g)\ny(0) = 1; y'(0) = 0\nwhen y = 0 falling as hit: y' = -e y'\nwhen hit accumulates as settle: rest = 1, y = 0, y' = 0, record\nwhen every 3 as kick: rest = 0, y' = 4, record\nuntil 8.9\n"
 gives "a ball that is thrown again" 0 "$motus" run "$one" --json
 that "  rests with its error" holds '.state."y'"'"'" == 0 and .error."y'"'"'" < 1e-12 and ([.events[] | select(.name == "settle") | .time - (4.6, 7.6, 1.341640786499874) | fabs < 1e-12] | map(select(.)) | length) == 3'
+# The time of a function of the time alone is known, whatever the motion is.
+text "k = 0\ny'' = -9.81 - k y'^3\ny(0) = 300\ny'(0) = 0\nuntil 30\nwhen t = 4*60/100 + 1 as chute: k = 0.01, record\nwhen cos(t) = 0 as late: record\nwhen y = 0 falling as ground: record, stop\n"
+gives "events at times that are known" 0 "$motus" run "$one" --method dopri5 --tolerance 1e-6 --json
+that "  have the bars of these times" holds '([.events[] | select(.name != "ground") | .error <= 2e-15 * .time] | all) and ([.events[] | select(.name == "late") | .time - 1.5707963267948966 - 3.141592653589793 * (.count - 1) | fabs < 4e-15] | all) and .events[-1].name == "ground" and .events[-1].error > 1e-9'
+that "  which hold" holds '.events[1] | .name == "chute" and (.time - 3.4 | fabs) <= .error'
 # A function that another rule's action sends back has touched 0.
 bounce="y'' = -9.81\ny(0) = 1\ny'(0) = 0\nuntil 3.5\n"
 hit="when y = 0 falling as bounce: y' = -0.8 y', record\n"

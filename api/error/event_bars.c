@@ -19,6 +19,7 @@ enum { BEFORE = 6, AFTER = 2, WINDOW = BEFORE + AFTER, NEARBY = 16 };
 #define APART 0.25
 #define CLOSE 256   /* units in the last place of the time: least room for a distance, where events accumulate */
 #define CLOCK 1.5   /* units in the last place: the period, its multiple and the sum are rounded */
+#define TIMED 4     /* units in the last place: rounding of a function of the time that may hide where it passes 0 */
 #define ROUNDINGS 2 /* units in the last place of an event's time that run and companion share */
 /* In place of BARS_LASTING at a limit of events, with and without a companion: flights of a ball have left up to 8 of
  * these parts (dop853, all of one sign). A companion shows most of them, since its steps are others. */
@@ -109,6 +110,14 @@ static double shared(double t, double lasting, double part)
     return ROUNDINGS * events_ulp(t) + part * 0x1p-52 * lasting;
 }
 
+/* Returns the error of the time of a function of the time alone: its rounding, and that of the numbers in it, which the
+ * companion has with other roundings. The motion has no part in it. */
+static double bar_of_timed(const motus_run *r, size_t k, const event *this)
+{
+    const double apart = known(r, k) ? distance(r, &r->bars->half, k) : 0;
+    return TIMED * events_ulp(this->t) + this->doubt + (isfinite(apart) ? bars_part(r) * apart : 0);
+}
+
 double event_bars_time(motus_run *r, size_t k)
 {
     double d[WINDOW];
@@ -116,6 +125,7 @@ double event_bars_time(motus_run *r, size_t k)
     if (!r->bars) return NAN;
     const event this = events_row(r->events, k, false, NULL, NULL);
     if (r->rules->rule[this.rule].kind == RULE_CLOCK) return CLOCK * events_ulp(this.t); /* whatever the motion is */
+    if (r->rules->rule[this.rule].timed) return bar_of_timed(r, k, &this);
     const size_t rows = significant(r);
     if (k >= rows) return ended(r->bars) ? INFINITY : NAN;
     if (this.doubt >= fabs(r->timing.until - r->timing.t0)) return INFINITY; /* it may be anywhere in the run */

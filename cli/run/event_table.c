@@ -161,5 +161,8 @@ void event_table_end(const summary *s, FILE *out)
     const double gone = motus_run_time(s->run) - s->start;
     const bool there = accumulated && strcmp(name, of) == 0 && !(fabs(gone) > fabs(time - s->start) + error);
     decimal(motus_run_time(s->run), now);
+    if (there)
+        fprintf(out, "the run ends there, before %s = %s: `when %s accumulates: …` says how it goes on\n",
+                s->model->time, decimal(s->model->set.until, text), of);
     if (name[0] && !there) fprintf(out, "%s ended the run at %s = %s\n", name, s->model->time, now);
 }

@@ -30,7 +30,8 @@ static bool decides(const tree *t)
 static void refuse_equals(parser *p, const span *at)
 {
     COMPLAIN(p, at, "one = in an event stands between two numbers, not in a condition");
-    HINT(p, "in a condition write ==, as in `when x == 0 and y > 0: record`");
+    HINT(p, "in a condition write < or >: `when not up and y < h` happens where y falls through h; "
+            "rising and falling do not go with `and`");
 }
 
 /* occasion = or "=" or [ "rising" | "falling" ] | or */
