@@ -779,3 +779,15 @@ int64_t events_turns(const events *e)
 double events_interval(const events *e) { return e->interval; }
 size_t events_rule_of(const events *e, size_t function) { return e->rule_of[function]; }
 int64_t events_steps(const events *e) { return e->steps; }
+
+size_t events_held(const events *e, size_t *rule)
+{
+    size_t found = 0;
+    for (size_t k = e->rules.count; k-- > 0;) {
+        bool holds = false;
+        if (e->rules.rule[k].kind != RULE_CONDITION || e->count[k] > 0) continue;
+        for (size_t i = 0; i < e->rules.rule[k].instances; i++) holds |= e->held[e->instances[k] + i];
+        if (holds) *rule = k, found++;
+    }
+    return found;
+}

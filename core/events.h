@@ -113,6 +113,8 @@ const double *events_limit_off(const events *);
  * bound has confirmed what dense output shows at its points. Tells the start of the first such step, and a rule of
  * which that is true. */
 int64_t events_unseen(const events *, size_t *rule, double *t);
+/* Counts the rules that have not happened because their condition has held from the start on, and tells the first. */
+size_t events_held(const events *, size_t *rule);
 int64_t events_steps(const events *); /* since events_begin */
 size_t events_rule_of(const events *, size_t function);
 double events_latest(const events *);        /* time of the latest action; NaN: there was none */

@@ -1120,6 +1120,9 @@ typedef struct motus_run_statistics {
     int64_t events_unseen;
     double events_unseen_from;    /* when the first of these steps began; NaN: there is none */
     const char *events_unseen_of; /* the kind of event that may have been missed there; "" */
+    /* Kinds of events that have not happened because their condition has held from the start on; and the first one. */
+    int64_t events_held;
+    const char *events_held_of; /* "" */
 } motus_run_statistics;
 MOTUS_DEFAULT_FUNCTION(run_statistics, RUN_STATISTICS, motus_run_statistics)
 /* Fills them in. MOTUS_ARGUMENT: the run is NULL, or the struct has no valid size. */

@@ -550,6 +550,14 @@ text "k = 0\ny'' = -9.81 - k y'^3\ny(0) = 300\ny'(0) = 0\nuntil 30\nwhen t = 4*6
 gives "events at times that are known" 0 "$motus" run "$one" --method dopri5 --tolerance 1e-6 --json
 that "  have the bars of these times" holds '([.events[] | select(.name != "ground") | .error <= 2e-15 * .time] | all) and ([.events[] | select(.name == "late") | .time - 1.5707963267948966 - 3.141592653589793 * (.count - 1) | fabs < 4e-15] | all) and .events[-1].name == "ground" and .events[-1].error > 1e-9'
 that "  which hold" holds '.events[1] | .name == "chute" and (.time - 3.4 | fabs) <= .error'
+# A condition that holds from the start on never becomes true.
+text "u = 0\nx'' = u + 0.02\nx(0) = 0.2\nx'(0) = 0\nuntil 60\nwhen x > 0.05: u = -1\nwhen x > 0.1 and u >= 0: u = -2\nwhen x < -0.05: u = 1\n"
+gives "conditions that hold from the start on" 0 "$motus" run "$one" --json
+that "  are counted" holds '.events_held == 2 and .events_held_of == "event1"'
+gives "  in print" 0 "$motus" run "$one"
+that "  are told" says "event1 and 1 other event never happened: their conditions held from the start on"
+gives "one that becomes false and true again" 0 "$motus" run "$one" --set "x(0)=0.06" --set "x'(0)=-0.1" --json
+that "  happens" holds '.events_held == 0 and .events_held_of == null'
 # A function that another rule's action sends back has touched 0.
 bounce="y'' = -9.81\ny(0) = 1\ny'(0) = 0\nuntil 3.5\n"
 hit="when y = 0 falling as bounce: y' = -0.8 y', record\n"

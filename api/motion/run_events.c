@@ -58,6 +58,8 @@ void run_events_statistics(const motus_run *r, motus_run_statistics *out)
     if (!r->events) return;
     out->events_unseen = events_unseen(r->events, &rule, &out->events_unseen_from);
     if (out->events_unseen) out->events_unseen_of = r->rules->rule[rule].name;
+    out->events_held = (int64_t)events_held(r->events, &rule);
+    if (out->events_held) out->events_held_of = r->rules->rule[rule].name;
 }
 
 int64_t run_events_acted(const motus_run *r) { return r->events ? events_acted(r->events) : 0; }

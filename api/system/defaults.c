@@ -52,7 +52,7 @@ static const layout layouts[] = {
         motus_run_statistics, "run_statistics", SIZES(motus_run_statistics), .method = "", .machine = "", .choice = "",
         .note = "", .not_located = "", .cut = "", .step = NAN, .first_step = NAN, .last_step = NAN, .tolerance = NAN,
         .accuracy = NAN, .reached = NAN, .shortest_step = NAN, .longest_step = NAN, .jump = -1, .compiled_from = -1,
-        .events_unseen_from = NAN, .events_unseen_of = "", .jump_time = NAN, .jump_power = NAN),
+        .events_unseen_from = NAN, .events_unseen_of = "", .events_held_of = "", .jump_time = NAN, .jump_power = NAN),
     [MOTUS_DEF_ESTIMATE] = LAYOUT(motus_estimate, "estimate", SIZES(motus_estimate), .significant_until = NAN,
                                   .rate = NAN, .work = NAN, .reason = "", .looked = NAN),
     [MOTUS_DEF_EVENT_ROW] =

@@ -131,6 +131,17 @@ void event_table_unseen(const summary *s, FILE *out)
             from);
 }
 
+void event_table_held(const summary *s, FILE *out)
+{
+    const motus_run_statistics done = motus_run_now(s->run);
+    const long long more = (long long)done.events_held - 1;
+    if (more < 0) return;
+    fprintf(out, "\n%s", done.events_held_of);
+    if (more > 0) fprintf(out, " and %lld other event%s", more, more == 1 ? "" : "s");
+    fprintf(out, " never happened: %s\n",
+            more > 0 ? "their conditions held from the start on" : "its condition held from the start on");
+}
+
 /* Writes "bounces accumulate", or "event1 accumulates" if the plural of the name does not add an s. */
 static void put_accumulate(const char *name, FILE *out)
 {

@@ -277,6 +277,7 @@ motus_status summary_print(const summary *s, motus_error *err)
             if (i == EVENTS) event_table_note(s, out);
         }
         event_table_unseen(s, out);
+        event_table_held(s, out);
         if (s->errors) answer_print(s, out);
         answer_choice(s, out);
         print_file(s, out);
@@ -421,6 +422,8 @@ static void events_json(json *j, const summary *s, const double *values, int64_t
     json_string(j, "events_note", done.cut[0] ? done.cut : NULL);
     json_integer(j, "events_unseen", done.events_unseen);
     json_number(j, "events_unseen_from", done.events_unseen_from);
+    json_integer(j, "events_held", done.events_held);
+    json_string(j, "events_held_of", done.events_held ? done.events_held_of : NULL);
 }
 
 /* Computes state and quantities on arrival at the first *rows events. */

@@ -43,6 +43,8 @@ table *event_table_make(const summary *, motus_error *, motus_status *);
 void event_table_note(const summary *, FILE *);
 /* Prints where events may have been missed. */
 void event_table_unseen(const summary *, FILE *out);
+/* Says which events never happened because their condition held from the start on. */
+void event_table_held(const summary *, FILE *out);
 /* Prints a sentence for what ended the run before its time, and one for where events accumulate. */
 void event_table_end(const summary *, FILE *);
 
