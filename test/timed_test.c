@@ -247,11 +247,42 @@ static void narrow_ramps_by_machines(void **state)
     assert_true(steps[0] == steps[1]);
 }
 
+/* From rest, 1 - cos(c t) is a stair of roundings, and what it drives has no size yet: every tolerance leads on. One
+ * body is driven, and carries another along. */
+static void out_of_rest(void **state)
+{
+    (void)state;
+    const char *const text = "x'' = 3000 (0.03 (1 - cos(4 pi t)) - x)\ny'' = 70 (x - y)\n"
+                             "x(0) = 0; x'(0) = 0; y(0) = 0; y'(0) = 0\n";
+    static const char *const methods[] = {"bs32", "dopri5", "tsit5", "dop853", "verner9"};
+    static const double tolerances[] = {1e-3, 1e-6, 1e-9};
+    const double until = 0.25, c = 4 * acos(-1.0), w = sqrt(3000.0);
+    const double right = 0.03 * (1 - cos(w * until) - w * w / (w * w - c * c) * (cos(c * until) - cos(w * until)));
+    motus_system *s = given_text(text);
+    for (size_t m = 0; m < sizeof methods / sizeof *methods; m++)
+        for (size_t k = 0; k < sizeof tolerances / sizeof *tolerances - (m < 3); k++) {
+            motus_run_def def = motus_default_run();
+            motus_error err = motus_default_error();
+            motus_run *r = NULL;
+            double x[2], v[2];
+            def.method = methods[m];
+            def.machine = "interpreter";
+            def.until = until;
+            def.tolerance = tolerances[k];
+            must(motus_run_create(s, &def, &r, &err), &err, methods[m]);
+            must(motus_run_finish(r, &err), &err, methods[m]);
+            must(motus_run_state(r, x, v, &err), &err, methods[m]);
+            near(x[0], right, 100 * tolerances[k] * 0.06, methods[m]);
+            motus_run_destroy(r);
+        }
+    motus_system_destroy(s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(motions),      cmocka_unit_test(frees_what_friction_holds), cmocka_unit_test(leapt_pulses),
-        cmocka_unit_test(narrow_ramps), cmocka_unit_test(narrow_ramps_by_machines),
+        cmocka_unit_test(narrow_ramps), cmocka_unit_test(narrow_ramps_by_machines),  cmocka_unit_test(out_of_rest),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
