@@ -819,9 +819,9 @@ typedef enum motus_switches {
      * saved or restored; an ensemble refuses it. MOTUS_SOLVE: the force changes too fast, or something would have to
      * be held at 0. Reference solutions are runs of this kind. */
     MOTUS_SWITCHES_RESOLVE,
-    /* The default: LOCATE by a method that adapts its steps, else STEP. STEP as well where there are more than 64
-     * switches, which cost time in every step; where the force may be undefined beyond one, as max(0, x)^1.5 is; and
-     * where they cannot be located: `not_located` of motus_run_statistics says why. Ensembles choose likewise. */
+    /* The default: LOCATE by methods that adapt steps, else STEP. STEP too where there are over 64 switches, where
+     * they cannot be located, and where the force may be undefined beyond one, as max(0, x)^1.5 is, unless "auto" gets
+     * its accuracy with LOCATE: not_located of motus_run_statistics says why. Ensembles choose so, without trials. */
     MOTUS_SWITCHES_USUAL
 } motus_switches;
 

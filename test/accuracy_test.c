@@ -575,7 +575,7 @@ static void refused(void **state)
     assert_int_equal(motus_run_create(s, &def, &r, &err), MOTUS_CANCELLED);
     assert_null(r);
     def = wanted(NULL, 1e-6, 10);
-    def.switches = MOTUS_SWITCHES_LOCATE;
+    def.switches = MOTUS_SWITCHES_RESOLVE;
     assert_int_equal(motus_run_create(s, &def, &r, &err), MOTUS_UNAVAILABLE);
     motus_system_destroy(s);
     motus_text_def both = motus_default_text();
@@ -616,6 +616,39 @@ static void held_in_balance(void **state)
     motus_system_destroy(s);
 }
 
+/* Where the force may be undefined beyond a switch, "auto" locates if trials show that it can, and who asks for it gets
+ * the same run; steps across give the same motion. Steps of one size that locate reach no accuracy. */
+static void locates_by_trials(void **state)
+{
+    (void)state;
+    static const char text[] = "x'' = -1 + 50 max(0, 0.1 - x)^1.5\nx(0) = 1; x'(0) = 0\n";
+    static const motus_switches how[] = {MOTUS_SWITCHES_USUAL, MOTUS_SWITCHES_LOCATE, MOTUS_SWITCHES_STEP};
+    motus_system *s = given_text(text);
+    motus_error err = motus_default_error();
+    double x[3], v[3], values[3], errors[3];
+    for (size_t k = 0; k < 3; k++) {
+        motus_run_def def = wanted("auto", 1e-7, 5);
+        motus_run *r = NULL;
+        const size_t column = 1;
+        def.switches = how[k];
+        must(made(s, &def, &r, &err), &err, text);
+        const motus_run_statistics did = motus_run_now(r);
+        assert_string_equal(did.not_located, "");
+        assert_int_equal(did.switches > 0, k < 2);
+        must(motus_run_state(r, x + k, v + k, &err), &err, text);
+        must(motus_run_errors(r, &column, 1, values + k, errors + k, &err), &err, text);
+        motus_run_destroy(r);
+    }
+    assert_true(x[0] == x[1] && v[0] == v[1]);
+    if (fabs(x[0] - x[2]) > errors[0] + errors[2]) fail_msg("%.17g and %.17g", x[0], x[2]);
+    motus_run_def def = wanted("rk4", 1e-7, 5);
+    motus_run *r = NULL;
+    def.switches = MOTUS_SWITCHES_LOCATE;
+    assert_int_equal(motus_run_create(s, &def, &r, &err), MOTUS_UNAVAILABLE);
+    assert_non_null(strstr(err.hint, "give a step"));
+    motus_system_destroy(s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(no_false_claim),
@@ -633,6 +666,7 @@ int main(void)
                                        cmocka_unit_test(the_part_of_decimals),
                                        cmocka_unit_test(held_in_balance),
                                        cmocka_unit_test(at_rest),
+                                       cmocka_unit_test(locates_by_trials),
                                        cmocka_unit_test(refused)};
     open_cache(); /* the object of a later run is not there yet */
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);

@@ -389,7 +389,7 @@ static motus_status fits(const motus_run *r, const found *f, motus_error *err)
     snprintf(expected, sizeof expected, "%016" PRIx64, fingerprint(r->system, r->rules));
     if (strcmp(f->system, expected)) {
         fail(err, MOTUS_STATE, "the restart state belongs to another model, or to other parameters");
-        hint(err, "give the model and `set` of the definition with which it was written");
+        hint(err, "give the model, `set` and `switches` of the definition with which it was written");
         return MOTUS_STATE;
     }
     if (strcmp(f->method, r->chosen.name))

@@ -34,6 +34,14 @@ static motus_status refuse_fixed(const chosen *c, motus_error *err)
     return MOTUS_ARGUMENT;
 }
 
+static motus_status refuse_located(const char *what, motus_error *err)
+{
+    fail(err, MOTUS_UNAVAILABLE, "a run %s cannot be given an accuracy", what);
+    hint(err,
+         "give a step, `step = 0.01` of the definition, or choose a method that adapts its steps, dop853 or taylor");
+    return MOTUS_UNAVAILABLE;
+}
+
 motus_status goal_admits(motus_system *s, request *q, motus_error *err)
 {
     const char *const asked = q->set.method;
@@ -96,13 +104,76 @@ static void try_others(motus_system *s, const attempt *asked, const pilot *p, at
                  best->accuracy.missed ? "comes nearest to the accuracy" : "keeps to the accuracy", first);
 }
 
+/* Chooses among methods where that is asked, and searches for what reaches the accuracy, if there is one. */
+static motus_status seek(motus_system *s, motus_run_def *def, const motus_settings *set, run_hint *hint, struct goal *g,
+                         motus_error *err)
+{
+    pilot p = {.count = 0};
+    if (set->automatic) {
+        motus_run_def first = *def;
+        if (isnan(first.tolerance)) first.tolerance = fmax(set->absolute ? 0 : 1e-14, set->accuracy / 10);
+        const motus_status status = pilot_choose(s, &first, &p, err);
+        if (status != MOTUS_OK) return status;
+        memcpy(g->choice, p.why, sizeof g->choice);
+        def->method = p.names[0];
+        hint->steps = p.steps;
+    }
+    if (isnan(set->accuracy)) return MOTUS_OK;
+    g->accuracy.wanted = set->accuracy;
+    g->accuracy.absolute = set->absolute;
+    const attempt asked = {.def = *def, .hint = *hint, .accuracy = g->accuracy};
+    attempt best = asked;
+    attempt_find(&best, s, NULL);
+    if (set->automatic) try_others(s, &asked, &p, &best, g->choice);
+    g->accuracy = best.accuracy;
+    *def = best.def, *hint = best.hint;
+    if (best.failure.status != MOTUS_OK) {
+        if (err) motus_struct_write(MOTUS_DEF_ERROR, &best.failure, err);
+        return best.failure.status;
+    }
+    hint->steps = (double)run_steps(g->accuracy.best);
+    return MOTUS_OK;
+}
+
+/* Searches with switches that are located, where the force may be undefined beyond one: such steps are refused, and
+ * usually far fewer than those that it takes to lead across. Leaves *found false, and all as it was, where that does
+ * not reach the accuracy. */
+static motus_status seek_located(motus_system *s, motus_run_def *def, const motus_settings *set, run_hint *hint,
+                                 struct goal *g, bool *found, motus_error *err)
+{
+    motus_run_def located = *def;
+    motus_system *of_switches;
+    const char *not_located;
+    run_hint theirs = *hint;
+    motus_error why = motus_default_error();
+    const struct goal before = *g;
+    *found = false;
+    if (!set->automatic || isnan(set->accuracy) || def->switches != MOTUS_SWITCHES_USUAL) return MOTUS_OK;
+    motus_status status = located_of(s, def->switches, &of_switches, &not_located, err);
+    if (status != MOTUS_OK || !located_may_leave(s)) return status;
+    located.switches = MOTUS_SWITCHES_LOCATE;
+    status = seek(s, &located, set, &theirs, g, &why);
+    *found = status == MOTUS_OK && !g->accuracy.missed;
+    if (*found) {
+        *def = located, *hint = theirs;
+        return MOTUS_OK;
+    }
+    accuracy_end(&g->accuracy);
+    const int trials = g->accuracy.trials;
+    *g = before;
+    g->accuracy.trials = trials;
+    if (status != MOTUS_CANCELLED && status != MOTUS_MEMORY) return MOTUS_OK;
+    if (err) motus_struct_write(MOTUS_DEF_ERROR, &why, err);
+    return status;
+}
+
 /* Names the method of a definition, and finds what reaches its accuracy, by pilots and trials where they are due. */
 static motus_status reach(motus_system *s, motus_run_def *def, request *q, run_hint *hint, struct goal *g,
                           motus_error *err)
 {
     const motus_settings *const set = &q->set;
-    pilot p = {.count = 0};
     timing t;
+    bool found;
     /* where steps have one size, their size is searched for later */
     motus_status status = run_timing(&q->chosen, 1, set->until, set->from, &t, err);
     if (status != MOTUS_OK) return status;
@@ -111,30 +182,9 @@ static motus_status reach(motus_system *s, motus_run_def *def, request *q, run_h
     def->absolute = set->absolute;
     def->accuracy = NAN;
     if (isnan(set->accuracy)) def->tolerance = set->tolerance;
-    if (set->automatic) {
-        motus_run_def first = *def;
-        if (isnan(first.tolerance)) first.tolerance = fmax(set->absolute ? 0 : 1e-14, set->accuracy / 10);
-        status = pilot_choose(s, &first, &p, err);
-        if (status != MOTUS_OK) return status;
-        memcpy(g->choice, p.why, sizeof g->choice);
-        def->method = p.names[0];
-        hint->steps = p.steps;
-    }
-    if (!isnan(set->accuracy)) {
-        g->accuracy.wanted = set->accuracy;
-        g->accuracy.absolute = set->absolute;
-        const attempt asked = {.def = *def, .hint = *hint, .accuracy = g->accuracy};
-        attempt best = asked;
-        attempt_find(&best, s, NULL);
-        if (set->automatic) try_others(s, &asked, &p, &best, g->choice);
-        g->accuracy = best.accuracy;
-        *def = best.def, *hint = best.hint;
-        if (best.failure.status != MOTUS_OK) {
-            if (err) motus_struct_write(MOTUS_DEF_ERROR, &best.failure, err);
-            return best.failure.status;
-        }
-        hint->steps = (double)run_steps(g->accuracy.best);
-    }
+    status = seek_located(s, def, set, hint, g, &found, err);
+    if (status == MOTUS_OK && !found) status = seek(s, def, set, hint, g, err);
+    if (status != MOTUS_OK) return status;
     *q = request_of_run(s, def); /* of what was found */
     return request_choose(s, q, err);
 }
@@ -206,8 +256,10 @@ motus_status goal_run(motus_system *s, motus_run_def *def, motus_run **out, motu
     motus_status status = goal_admits(s, &q, err);
     if (status == MOTUS_OK) status = suggest_missing(s, &q, err);
     const bool accurate = !isnan(q.set.accuracy);
-    if (status == MOTUS_OK && accurate && def->switches != MOTUS_SWITCHES_STEP && def->switches != MOTUS_SWITCHES_USUAL)
-        status = fail(err, MOTUS_UNAVAILABLE, "a run that locates switches cannot be given an accuracy");
+    if (status == MOTUS_OK && accurate && def->switches == MOTUS_SWITCHES_RESOLVE)
+        status = refuse_located("that resolves switches", err);
+    if (status == MOTUS_OK && accurate && def->switches == MOTUS_SWITCHES_LOCATE && !row_adaptive(&q.chosen))
+        status = refuse_located("by steps of one size that locates switches", err);
     if (status == MOTUS_OK && (accurate || q.set.automatic)) {
         goal = take(&s->allocator, 1, sizeof *goal);
         if (!goal) return fail(err, MOTUS_MEMORY, "no memory for the run");

@@ -43,6 +43,12 @@ static bool has_domain(const model *m)
     return domain;
 }
 
+bool located_may_leave(const motus_system *s)
+{
+    const model *m = s->located ? s->located->model : NULL;
+    return m && switches_sought(m, m->located) <= LOCATED_MOST && has_domain(m);
+}
+
 /* Returns why a run does not locate switches unless asked; "": it does. */
 static const char *unsuited(const model *m)
 {

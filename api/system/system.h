@@ -186,6 +186,9 @@ bool located_kinks(const model *);
  * MOTUS_SWITCHES_USUAL where the force is defined beyond every switch and there are at most LOCATED_MOST of them;
  * another choice: NULL. Use it only until the system's numbers are set again. */
 motus_status located_of(motus_system *, motus_switches asked, motus_system **, const char **why, motus_error *);
+/* Returns whether switches are not located unless asked for only because the force may be undefined beyond one; after
+ * located_of. */
+bool located_may_leave(const motus_system *);
 /* Finds the located system for runs of a method, as located_of does. A row of fixed steps gets one only for
  * MOTUS_SWITCHES_LOCATE. */
 motus_status located_for(motus_system *, const chosen *, motus_switches asked, motus_system **, const char **why,

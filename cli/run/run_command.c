@@ -22,6 +22,7 @@ motus_status run_command_text(const options *asked, const motus_run *run, double
     o.tolerance = now.tolerance;
     o.accuracy = NAN; /* the tolerance that was found for it is enough */
     o.absolute = now.absolute;
+    if (!o.switches && !isnan(now.accuracy) && now.switches >= 0) o.switches = "locate"; /* trials may have chosen it */
     o.until = until;
     if (!o.error) o.error = "cheap";
     return command_text(&o, text, err);
