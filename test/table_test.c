@@ -340,7 +340,8 @@ static void ends_are_reached(void **state)
                 motus_error err = motus_default_error();
                 const size_t column = 1;
                 double got[2], error[2];
-                for (int on = 0; on < 2; on++) {
+                const bool compiles = m < 2 && !back && k % 4 == 0;
+                for (int on = 0; on < 1 + compiles; on++) {
                     motus_run_def def = motus_default_run();
                     motus_run *r = NULL;
                     def.method = methods[m];
@@ -355,8 +356,7 @@ static void ends_are_reached(void **state)
                         fail_msg("%s by %s: %s", text, methods[m], err.message);
                     motus_run_destroy(r);
                 }
-                assert_memory_equal(got, got + 1, sizeof *got);
-                assert_memory_equal(error, error + 1, sizeof *error);
+                assert_true(!compiles || (got[0] == got[1] && error[0] == error[1]));
                 const double truth = u0 * d * d / 2 + (u - u0) * d * d / 6;
                 if (m < 4 && fabs(*got - truth) > *error + 1e-15 * fabs(truth))
                     fail_msg("%s by %s: %.17g, not %.17g", text, methods[m], *got, truth);
