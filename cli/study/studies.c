@@ -43,15 +43,16 @@ motus_status studies_begin(studies *s, const char *what, bool steps, const optio
 void studies_title(const studies *s, const char *reference, double error)
 {
     const bool colours = complain_colours(1);
-    printf("%s%s%s, ", colours ? "\033[1m" : "", s->model.title, colours ? "\033[0m" : "");
+    char line[MOTUS_TEXT_MAX + MOTUS_NAME_MAX], of[32] = "";
     if (reference && !isnan(error)) {
-        printf("errors against ");
-        text_put(stdout, reference);
-        if (error > 0) printf(" (error %.1g)", error);
+        if (error > 0) snprintf(of, sizeof of, " (error %.1g)", error);
+        snprintf(line, sizeof line, "errors against %.300s%s", reference, of);
     } else {
-        printf("without errors: there is no reference solution");
+        snprintf(line, sizeof line, "without errors: there is no reference solution");
     }
-    putchar('\n');
+    const bool two = strlen(s->model.title) + strlen(line) + 2 > 80;
+    printf("%s%s%s%s", colours ? "\033[1m" : "", s->model.title, colours ? "\033[0m" : "", two ? ":\n" : ", ");
+    text_wrap(stdout, line, 0, 80);
 }
 
 void studies_note(const char *method, const char *text, bool *first)
