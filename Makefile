@@ -71,7 +71,8 @@ bench:
 	@if command -v node >/dev/null 2>&1; then node bench/page.mjs --save $(RESULTS); else echo "The page is not measured: that needs node."; fi
 
 install: all
-	@$(CMAKE) --preset release -DCMAKE_INSTALL_PREFIX=$(abspath $(PREFIX)) >build/configure.log
+	@case '$(PREFIX)' in /*) prefix='$(PREFIX)' ;; *) prefix='$(CURDIR)/$(PREFIX)' ;; esac; \
+	    $(CMAKE) --preset release -DCMAKE_INSTALL_PREFIX="$$prefix" >build/configure.log
 	@$(CMAKE) --install build
 
 fuzz:

@@ -16,6 +16,7 @@
 #ifdef __linux__
 #include <sched.h>
 #include <sys/file.h>
+#include <sys/ioctl.h>
 #endif
 
 /* ---- processors ---- */
@@ -173,6 +174,12 @@ bool platform_locked(int descriptor, bool behind)
     if (behind) return fcntl(descriptor, F_OFD_GETLK, &lock) == 0 && lock.l_type != F_UNLCK;
     return flock(descriptor, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
 }
+
+int platform_columns(int descriptor)
+{
+    struct winsize size = {0};
+    return ioctl(descriptor, TIOCGWINSZ, &size) == 0 ? size.ws_col : 0;
+}
 #else
 int platform_nameless(const char *folder, int mode) { return (void)folder, (void)mode, -1; }
 const char *platform_place(int descriptor, char out[PLATFORM_PLACE]) { return (void)descriptor, *out = 0, out; }
@@ -185,6 +192,7 @@ off_t platform_written(int descriptor, off_t at, off_t *end)
 
 bool platform_lock(int descriptor, bool behind) { return (void)descriptor, (void)behind, true; }
 bool platform_locked(int descriptor, bool behind) { return (void)descriptor, (void)behind, false; }
+int platform_columns(int descriptor) { return (void)descriptor, 0; }
 #endif
 
 /* ---- processes ---- */

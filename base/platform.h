@@ -47,6 +47,11 @@ bool platform_lock(int descriptor, bool behind);
 /* Returns whether another descriptor has the lock. */
 bool platform_locked(int descriptor, bool behind);
 
+/* ---- the terminal ---- */
+
+/* Returns how many columns the terminal of a descriptor has; 0: it is none, or that is not known. */
+int platform_columns(int descriptor);
+
 /* ---- processes ---- */
 
 #define PLATFORM_OPENER "xdg-open" /* the program that opens an address in the user's browser */

@@ -21,6 +21,13 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/motus-config-version.cmak
 install(FILES ${PROJECT_BINARY_DIR}/motus-config.cmake ${PROJECT_BINARY_DIR}/motus-config-version.cmake
   DESTINATION ${package_dir})
 
+# A folder may be given below the prefix or by its whole path.
+foreach(dir LIBDIR INCLUDEDIR)
+  set(pc_${dir} "\${prefix}/${CMAKE_INSTALL_${dir}}")
+  if(IS_ABSOLUTE "${CMAKE_INSTALL_${dir}}")
+    set(pc_${dir} "${CMAKE_INSTALL_${dir}}")
+  endif()
+endforeach()
 file(RELATIVE_PATH pc_to_prefix ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
 string(REGEX REPLACE "/$" "" pc_to_prefix "${pc_to_prefix}")
 configure_file(cmake/motus.pc.in ${PROJECT_BINARY_DIR}/motus.pc @ONLY)

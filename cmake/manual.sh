@@ -18,7 +18,7 @@ put() {
 }
 "$motus" --options >"$place/table"
 "$motus" methods --markdown | put doc/manual.md "$out/manual.md" '<!-- methods -->' '<!-- /methods -->'
-"$motus" --help | sed -n 's/^  motus \([a-z]\)/    motus \1/p' | put "$out/manual.md" "$out/manual.md" '<!-- verbs -->' '<!-- /verbs -->'
+awk -F'\t' '$1 == "verb" { printf "    motus %-8s %-32s  %s\n", $2, $3, $4 }' "$place/table" | put "$out/manual.md" "$out/manual.md" '<!-- verbs -->' '<!-- /verbs -->'
 awk -F'\t' '
     BEGIN { print "| option | of | meaning |"; print "|---|---|---|" }
     $1 == "verb" { all = all (all ? "," : "") $2 }

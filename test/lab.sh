@@ -266,7 +266,7 @@ that "... the page is there" cmp osc-lab.html model-lab.html
 # The examples of --help are commands that work.
 "$motus" lab --help >help
 mkdir examples && ln -s "$root/models" examples/models
-sed -n '/^examples:/,$p' help | sed 1d | while read -r line; do
+sed -n '/^examples:/,$p' help | sed -e 1d -e ':a; /\\$/N; s/\\\n *//; ta' | while read -r line; do
     (cd examples && PATH=$(dirname "$motus"):$PATH BROWSER=true bash -c "$line" >/dev/null 2>"$err") && echo "ok $line" || echo "not $line: $(cat "$err")"
 done >ran
 that "the examples of lab work" eval "grep -q ^ok ran && ! grep ^not ran"

@@ -105,13 +105,13 @@ judge "... and the README's" "$(line=$(grep -oE 'prints `x [0-9.]+ ± [0-9e-]+`'
 command=$(sed -n 's/^    motus \(compare .*--accuracies .*\)$/\1/p' doc/manual.md | head -n 1)
 sed -n '/^Evaluations of the force/,/^```/p' doc/manual.md | sed '$d' >"$place/told"
 judge "the work that the manual shows is the program's" "$([ "$(wc -l <"$place/told")" -gt 5 ] || echo "the manual shows none"
-    NO_COLOR=1 "$motus" $command 2>/dev/null | sed -n '/^Evaluations of the force/,/^$/p' | sed '$d' | diff "$place/told" -)"
+    NO_COLOR=1 "$motus" $command 2>/dev/null | sed -n '/^Evaluations of the force/,/^Time for it/p' | sed '$d' | sed '$d' | diff "$place/told" -)"
 
 # Certificates of adaptive rows.
 command=$(sed -n 's/^    motus \(converge .*henon.*\)$/\1/p' doc/manual.md | head -n 1)
-sed -n '/^### converge/,/^### sweep/{/^  method /,/^```/p}' doc/manual.md | sed '$d' >"$place/told"
+sed -n '/^### converge/,/^### sweep/{/^  method  /,/^```/p}' doc/manual.md | sed '$d; /^$/d' >"$place/told"
 judge "the certificates that the manual shows are the program's" "$([ "$(wc -l <"$place/told")" -gt 5 ] || echo "the manual shows none"
-    NO_COLOR=1 "$motus" $command 2>/dev/null | sed -n '/^  method /,/^$/p' | sed 's/ *$//; /^$/d' | diff "$place/told" -)"
+    NO_COLOR=1 "$motus" $command 2>/dev/null | sed -n '/^  method  /,/^$/p' | sed 's/ *$//; /^$/d' | diff "$place/told" -)"
 
 echo "$passed passed, $failed failed"
 [ $failed = 0 ]

@@ -14,7 +14,7 @@ judge() {
     else failed=$((failed + 1)); echo "not ok - $1"; sed 's/^/    /' <<<"$2"; fi
 }
 "$motus" --options >table
-options_of() { "$motus" "$1" --help | sed '/^examples:/,$d' | grep -oE '^ +(-[a-z], )?--[a-z-]+' | grep -oE -- '--[a-z-]+' | sort -u; }
+options_of() { "$motus" "$1" --help | sed '/^examples:/,$d' | grep -oE '^  (-[a-z], )?--[a-z-]+' | grep -oE -- '--[a-z-]+' | sort -u; }
 judge "the table has options" "$([ "$(grep -c '^option' table)" -gt 50 ] || wc -l table)"
 judge "every verb has its page" "$(cut -f 1,2 table | sed -n 's/^verb\t//p' | while read -r verb; do
     "$motus" --help | grep -q "motus $verb" || echo "--help: no $verb"

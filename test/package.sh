@@ -97,6 +97,13 @@ by_pkg_config() {
     else readelf -d "$out" | grep -q 'libmotus\.so\.' || return 1; fi
     LD_LIBRARY_PATH=$lib "$out"
 }
+# A folder of libraries outside of the prefix.
+elsewhere() {
+    cmake -S . -B "$place/apart" "-DCMAKE_INSTALL_PREFIX=$place/there" -DCMAKE_INSTALL_LIBDIR=/opt/other/lib64 >/dev/null || return 1
+    local words
+    words=$(PKG_CONFIG_PATH="$place/apart" pkg-config --variable=libdir motus) && [ "$words" = /opt/other/lib64 ]
+}
+try "pkg-config, a folder of libraries outside of the prefix" elsewhere
 try "pkg-config knows the version" test "$(pkg-config --modversion motus)" = "$version"
 try "pkg-config, C, shared"   by_pkg_config cc c17 "$place/use.c" shared
 try "pkg-config, C, static"   by_pkg_config cc c17 "$place/use.c" static

@@ -146,6 +146,7 @@ that "... end little above the errors on the slopes" eval "sed -n 's/^set yrange
 # --- sweeps and sections ------------------------------------------------------------------------------------------------------------
 spring="models/damped-spring.motus --set F=1 --record max(x),energy -o $place/rows.csv --force"
 rows() { grep -v '^#' "$place/rows.csv" | tail -n +2; }
+that "a picture alone prints no rows" eval "env PATH='$place/bin:$PATH' '$motus' sweep models/damped-spring.motus --set F=1 --vary omega=3,1,2 --plot '$place/fig.svg' --force >'$out' 2>'$err' && says '3 trajectories' && ! grep -q '^0,' '$out' '$err' && lacks /dev/null"
 draws "a resonance curve" sweep $spring --vary omega=3,1,2
 that "... is what the rows have, in the order of the frequencies" eval "diff <(block 0 0) <(rows | sort -t, -k2 -g | awk -F, '{ printf \"%.12g %.10g\n\", \$2, \$3 }')"
 that "... a panel for each record" eval "[ $(grep -c '^plot' "$script") = 2 ] && says \"'omega'\" '$script' && says \"'max(x)'\" '$script'"

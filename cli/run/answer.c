@@ -14,14 +14,13 @@ static void print_end(const summary *s, FILE *out)
     const motus_estimate *e = &s->estimate;
     char t[DECIMAL_MAX], rate[DECIMAL_MAX], gain[DECIMAL_MAX];
     decimal_time(e->significant_until, motus_run_time(s->run) - s->start, t);
-    fprintf(out, "no digit is known to be significant after %s = %s", s->model->time, t);
-    if (isfinite(e->rate)) {
-        text_brief(e->rate, 2, rate);
-        text_brief(LN_10 / e->rate, 2, gain);
-        fprintf(out, " (errors grow as e^{%s %s}; a tenth of the error moves that time on by %s)", rate, s->model->time,
-                gain);
-    }
-    putc('\n', out);
+    char grow[2 * DECIMAL_MAX + MOTUS_TEXT_MAX] = "";
+    text_brief(e->rate, 2, rate);
+    text_brief(LN_10 / e->rate, 2, gain);
+    if (isfinite(e->rate))
+        snprintf(grow, sizeof grow, " (errors grow as e^{%s %s}; a tenth of the error moves that time on by %s)", rate,
+                 s->model->time, gain);
+    text_say(out, "no digit is known to be significant after %s = %s%s", s->model->time, t, grow);
 }
 
 /* Prints whether the run has reached its accuracy. */
@@ -33,28 +32,24 @@ static void print_accuracy(const motus_run_statistics *run, FILE *out)
     text_brief(run->accuracy, 3, wanted);
     text_brief(run->reached, 2, reached);
     if (isfinite(run->reached))
-        fprintf(out, "accuracy %s%s %s: the largest error at the ends of steps is %s%s\n", wanted, unit,
-                run->reached <= run->accuracy ? "holds" : "is not reached", reached, unit);
+        text_say(out, "accuracy %s%s %s: the largest error at the ends of steps is %s%s", wanted, unit,
+                 run->reached <= run->accuracy ? "holds" : "is not reached", reached, unit);
 }
 
 void answer_choice(const summary *s, FILE *out)
 {
     const char *why = motus_run_now(s->run).choice;
-    if (!why[0]) return;
-    fputs("auto: ", out);
-    text_put(out, why);
-    putc('\n', out);
+    if (why[0]) text_say(out, "auto: %s", why);
 }
 
 void answer_print(const summary *s, FILE *out)
 {
     const motus_estimate *e = &s->estimate;
     char step[DECIMAL_MAX], work[DECIMAL_MAX], growth[DECIMAL_MAX], looked[DECIMAL_MAX];
+    char rough[128] = "", grown[DECIMAL_MAX + 64] = "", seen[DECIMAL_MAX + 64] = "";
     putc('\n', out);
     if (e->reason[0]) {
-        fputs("error: not known, because ", out);
-        text_put(out, e->reason);
-        putc('\n', out);
+        text_say(out, "error: not known, because %s", e->reason);
         return;
     }
     const motus_run_statistics run = motus_run_now(s->run);
@@ -65,20 +60,20 @@ void answer_print(const summary *s, FILE *out)
     if (!isnan(e->significant_until))
         print_end(s, out);
     else
-        fprintf(out, "± is the error of %s %s: how far the exact motion of the equation may be\n",
-                adaptive ? "tolerance" : "h =", step);
-    fprintf(out, "finding the errors took %s × the work of the run", isnan(e->work) ? "0" : work);
+        text_say(out, "± is the error of %s %s: how far the exact motion of the equation may be",
+                 adaptive ? "tolerance" : "h =", step);
     if (e->kinked)
-        fprintf(out, "; steps cross kinks of the force, so the errors are rough%s",
-                adaptive || s->options->switches ? "" : ": --switches locate gives sharp ones");
+        snprintf(rough, sizeof rough, "; steps cross kinks of the force, so the errors are rough%s",
+                 adaptive || s->options->switches ? "" : ": --switches locate gives sharp ones");
     if (isnan(e->significant_until) && e->growth > FAR_APART && s->options->error == NULL) {
         text_brief(e->growth, 1, growth);
-        fprintf(out, "; errors have grown %s times: --error full is safer", growth);
+        snprintf(grown, sizeof grown, "; errors have grown %s times: --error full is safer", growth);
     }
     if (e->looked < 1) {
         const double percent = 100 * e->looked;
         text_brief(percent < 10 ? percent : floor(percent), 2, looked);
-        fprintf(out, "; the force within a step was examined in %s %% of the steps", looked);
+        snprintf(seen, sizeof seen, "; the force within a step was examined in %s %% of the steps", looked);
     }
-    putc('\n', out);
+    text_say(out, "finding the errors took %s × the work of the run%s%s%s", isnan(e->work) ? "0" : work, rough, grown,
+             seen);
 }

@@ -124,11 +124,12 @@ void event_table_unseen(const summary *s, FILE *out)
     const motus_run_statistics done = motus_run_now(s->run);
     if (!done.events_unseen) return;
     text_brief(done.events_unseen_from, 6, from);
-    fprintf(out,
-            "\nevents of %s that are far shorter than a step may have been missed in %lld step%s, from %s = %s on: "
-            "no bound excludes them there, and smaller steps see more\n",
-            done.events_unseen_of, (long long)done.events_unseen, done.events_unseen == 1 ? "" : "s", s->model->time,
-            from);
+    putc('\n', out);
+    text_say(out,
+             "events of %s that are far shorter than a step may have been missed in %lld step%s, from %s = %s on: "
+             "no bound excludes them there, and smaller steps see more",
+             done.events_unseen_of, (long long)done.events_unseen, done.events_unseen == 1 ? "" : "s", s->model->time,
+             from);
 }
 
 void event_table_held(const summary *s, FILE *out)

@@ -213,27 +213,30 @@ static void how_steps(const summary *s, char *out, size_t size)
 static void head(const summary *s, FILE *out, bool colours)
 {
     char from[DECIMAL_MAX], to[DECIMAL_MAX], last[DECIMAL_MAX], spent[DECIMAL_MAX], how[3 * DECIMAL_MAX];
+    char line[4 * DECIMAL_MAX + 512], iterations[64];
     const motus_run_statistics done = motus_run_now(s->run);
     how_steps(s, how, sizeof how);
     decimal(s->start, from);
     decimal(motus_run_time(s->run), to);
     text_brief(done.shorter_last, 6, last);
     text_seconds(s->seconds, spent);
-    fprintf(out, "%s%s%s: %s, %s, ", colours ? "\033[1m" : "", s->model->title, colours ? "\033[0m" : "", done.method,
-            how);
-    if (done.compiled_from > 0)
-        fprintf(out, "interpreter, then compiled from step %lld\n", (long long)done.compiled_from + 1);
-    else
-        fprintf(out, "%s\n", done.machine);
-    fprintf(out, "%s = %s to %s in %lld steps", s->model->time, from, to, (long long)motus_run_steps(s->run));
+    fprintf(out, "%s%s%s", colours ? "\033[1m" : "", s->model->title, colours ? "\033[0m" : "");
+    const bool later = done.compiled_from > 0;
+    snprintf(line, sizeof line, ": %s, %s, %s", done.method, how, later ? "interpreter, then compiled" : done.machine);
+    if (later) snprintf(line + strlen(line), 64, " from step %lld", (long long)done.compiled_from + 1);
+    text_flow(out, line, text_width(s->model->title), 4, text_columns(out));
+    putc('\n', out);
     const bool ended = motus_run_ended(s->run, NULL, NULL, NULL)[0]; /* if so, `until` has shortened no step */
-    if (done.shorter_last != 0 && !ended) fprintf(out, " (the last one %s)", last);
-    if (done.refused > 0) fprintf(out, " and %lld refused", (long long)done.refused);
-    fprintf(out, ", %lld evaluations", (long long)done.evaluations);
-    if (done.iterations > 0) fprintf(out, ", %lld iterations", (long long)done.iterations);
-    fprintf(out, ", %s%s\n", spent, done.trials ? ", trial runs included" : "");
+    const bool shorter = done.shorter_last != 0 && !ended;
+    line[0] = iterations[0] = 0;
+    if (done.refused > 0) snprintf(line, sizeof line, " and %lld refused", (long long)done.refused);
+    if (done.iterations > 0) snprintf(iterations, sizeof iterations, ", %lld iterations", (long long)done.iterations);
+    text_say(out, "%s = %s to %s in %lld steps%s%s%s%s, %lld evaluations%s, %s%s", s->model->time, from, to,
+             (long long)motus_run_steps(s->run), shorter ? " (the last one " : "", shorter ? last : "",
+             shorter ? ")" : "", line, (long long)done.evaluations, iterations, spent,
+             done.trials ? ", trial runs included" : "");
     if (!isnan(s->went_on) && s->went_on != s->start)
-        fprintf(out, "goes on from the state at %s = %s in %s\n", s->model->time, decimal(s->went_on, from), s->from);
+        text_say(out, "goes on from the state at %s = %s in %s", s->model->time, decimal(s->went_on, from), s->from);
     event_table_end(s, out);
 }
 
@@ -241,17 +244,19 @@ static void head(const summary *s, FILE *out, bool colours)
 static void print_file(const summary *s, FILE *out)
 {
     const options *o = s->options;
-    char period[DECIMAL_MAX];
+    char period[DECIMAL_MAX], when[DECIMAL_MAX + 64], jumps[64] = "";
     if (!o->output || strcmp(o->output, "-") == 0) return;
-    fprintf(out, "\n%s has %" PRId64 " row%s, ", o->output, s->rows, s->rows == 1 ? "" : "s");
     if (s->period > 0)
-        fprintf(out, "one every %s", decimal(s->period, period));
+        snprintf(when, sizeof when, "one every %s", decimal(s->period, period));
     else if (s->stride > 1)
-        fprintf(out, "one every %" PRId64 " steps", s->stride);
+        snprintf(when, sizeof when, "one every %" PRId64 " steps", s->stride);
     else
-        fprintf(out, "one at every step%s", s->smooth ? ", and between them what a smooth curve needs" : "");
-    if (s->jumps > 0) fprintf(out, ", and both sides of %" PRId64 " jump%s", s->jumps, s->jumps == 1 ? "" : "s");
+        snprintf(when, sizeof when, "one at every step%s",
+                 s->smooth ? ", and between them what a smooth curve needs" : "");
+    if (s->jumps > 0)
+        snprintf(jumps, sizeof jumps, ", and both sides of %" PRId64 " jump%s", s->jumps, s->jumps == 1 ? "" : "s");
     putc('\n', out);
+    text_say(out, "%s has %" PRId64 " row%s, %s%s", o->output, s->rows, s->rows == 1 ? "" : "s", when, jumps);
 }
 
 motus_status summary_print(const summary *s, motus_error *err)

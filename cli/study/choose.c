@@ -79,5 +79,5 @@ void choose_tell(size_t shown, size_t count, const char *measure)
              "%zu of %zu methods: the model's own and the best of each family by %s; --all shows the others", shown,
              count, measure);
     putchar('\n');
-    text_wrap(stdout, line, 2, 80);
+    text_wrap(stdout, line, 2);
 }

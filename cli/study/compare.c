@@ -159,7 +159,7 @@ static motus_status print_tables(const studies *s, const void *result, motus_err
             studies_note(c->rows[k]->method, c->rows[k]->note, &first);
     if (c->remarks && *c->remarks) {
         putchar('\n');
-        text_wrap(stdout, c->remarks, 2, 80);
+        text_wrap(stdout, c->remarks, 2);
     }
     free(rows);
     return good ? MOTUS_OK : complain_memory(err);

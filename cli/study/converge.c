@@ -72,10 +72,9 @@ static void slope_cell(table *t, const motus_converge_row *r, double slope, doub
 /* Prints a line for each method that chooses its steps. Returns false if memory runs out. */
 static bool print_paced(const motus_convergence *c, bool colours)
 {
-    static const char *const head[] = {"method", "declared", "observed", "power of the tolerance",
-                                       "due",    "between",  "due",      "passed"};
+    static const char *const head[] = {"method", "passed", "order", "observed", "power", "due", "between", "due"};
     size_t rows = 0;
-    table *t = table_create("lrrrrrrll");
+    table *t = table_create("llrrrrrrl");
     for (size_t i = 0; i < sizeof head / sizeof *head; i++) table_cell(t, head[i]);
     table_cell(t, "");
     for (size_t k = 0; k < c->row_count; k++) {
@@ -84,6 +83,7 @@ static bool print_paced(const motus_convergence *c, bool colours)
         const bool judged = r->between_due > 0;
         rows++;
         table_cell(t, r->method);
+        table_cell(t, passed_word(r));
         table_integer(t, r->declared);
         slope_cell(t, r, r->observed, r->standard_error);
         slope_cell(t, r, r->power, r->power_error);
@@ -93,11 +93,11 @@ static bool print_paced(const motus_convergence *c, bool colours)
             table_integer(t, r->between_due);
         else
             table_cell(t, "-");
-        table_cell(t, passed_word(r));
         table_cell(t, judged ? "" : r->certificate);
     }
     if (rows)
-        printf("%smethods that choose their steps, each slope with twice its standard error\n",
+        printf("%smethods that choose their steps, each slope with twice its standard error\n"
+               "(power: of the error against the tolerance)\n",
                rows < c->row_count ? "\n" : "");
     const bool good = !rows || table_print(t, stdout, 2, colours);
     table_destroy(t);
@@ -143,9 +143,13 @@ static motus_status print_tables(const studies *s, const void *result, motus_err
     bool good = print_orders(c, colours) && print_paced(c, colours), uncertain = false;
     for (size_t k = 0; k < c->row_count; k++) uncertain |= c->rows[k]->uncertain != 0;
     if (uncertain)
-        puts("\nnot certified: too few errors lie between the coarsest steps or tolerances and round-off to find every "
-             "slope, or the steps are not small enough, or the force is not smooth and leaves only a lower order");
-    if (s->options->points) puts("\nin brackets: not in the fit, because instability or round-off dominates");
+        text_wrap(stdout,
+                  "\nnot certified: too few errors lie between the coarsest steps or tolerances and round-off to find "
+                  "every slope, or the steps are not small enough, or the force is not smooth and leaves only a lower "
+                  "order",
+                  0);
+    if (s->options->points)
+        text_wrap(stdout, "\nin brackets: not in the fit, because instability or round-off dominates", 0);
     for (size_t k = 0; s->options->points && k < c->row_count && good; k++) {
         const motus_converge_row *r = c->rows[k];
         printf("\n  %s%s%s\n", colours ? "\033[1m" : "", r->method, colours ? "\033[0m" : "");

@@ -128,7 +128,7 @@ static motus_status print_tables(const studies *s, const void *result, motus_err
         if (rows[k].shown && r->rows[k]->note[0]) studies_note(r->rows[k]->method, r->rows[k]->note, &first);
     if (r->remarks[0]) {
         putchar('\n');
-        text_wrap(stdout, r->remarks, 2, 80);
+        text_wrap(stdout, r->remarks, 2);
     }
     free(rows);
     return good ? MOTUS_OK : complain_memory(err);

@@ -43,16 +43,15 @@ motus_status studies_begin(studies *s, const char *what, bool steps, const optio
 void studies_title(const studies *s, const char *reference, double error)
 {
     const bool colours = complain_colours(1);
-    char line[MOTUS_TEXT_MAX + MOTUS_NAME_MAX], of[32] = "";
-    if (reference && !isnan(error)) {
-        if (error > 0) snprintf(of, sizeof of, " (error %.1g)", error);
-        snprintf(line, sizeof line, "errors against %.300s%s", reference, of);
-    } else {
-        snprintf(line, sizeof line, "without errors: there is no reference solution");
-    }
-    const bool two = strlen(s->model.title) + strlen(line) + 2 > 80;
-    printf("%s%s%s%s", colours ? "\033[1m" : "", s->model.title, colours ? "\033[0m" : "", two ? ":\n" : ", ");
-    text_wrap(stdout, line, 0, 80);
+    char line[MOTUS_TEXT_MAX], own[32] = "";
+    printf("%s%s%s", colours ? "\033[1m" : "", s->model.title, colours ? "\033[0m" : "");
+    if (error > 0) snprintf(own, sizeof own, " (error %.1g)", error);
+    if (reference && !isnan(error))
+        snprintf(line, sizeof line, ", errors against %.200s%s", reference, own);
+    else
+        snprintf(line, sizeof line, ", without errors: there is no reference solution");
+    text_flow(stdout, line, text_width(s->model.title), 4, text_columns(stdout));
+    putchar('\n');
 }
 
 void studies_note(const char *method, const char *text, bool *first)
@@ -62,7 +61,7 @@ void studies_note(const char *method, const char *text, bool *first)
     complain_named(text, note, sizeof note);
     snprintf(line, sizeof line, "%s%s%s", named ? "" : method, named ? "" : ": ", note);
     fputs(*first ? "\n" : "", stdout);
-    text_wrap(stdout, line, 2, 80);
+    text_wrap(stdout, line, 2);
     *first = false;
 }
 

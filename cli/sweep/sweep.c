@@ -339,6 +339,7 @@ motus_status sweep_verb(const options *o, motus_error *err)
     char *names[3] = {NULL};
     motus_status status = shard_read(&s.shard, o->shard, err);
     s.block = sweep_archive_block(&own);
+    if (own.plot && !own.output && !own.plan) own.output = "/dev/null"; /* a picture is asked for, and no rows */
     if (!status) status = name_files(&s, &own, names, err);
     if (!status) status = sweep_begin(&s, &section, &progress, err);
     if (!status) status = sweep_events_begin(&events, &s, err);

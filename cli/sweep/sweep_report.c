@@ -82,7 +82,7 @@ static void report_json(const sweep *s, const sweep_file *f, double wall, const 
     for (int k = MOTUS_CAUSE_NONE + 1; k < MOTUS_CAUSE_COUNT; k++)
         if (f->stopped_by[k]) json_integer(&j, motus_cause_word((motus_cause)k), (int64_t)f->stopped_by[k]);
     json_close(&j, '}');
-    json_string(&j, "output", f->path);
+    json_string(&j, "output", s->options->plot && !f->regular ? NULL : f->path);
     if (s->options->team) put_ranks(&j, s->options->team, all);
     json_end(&j);
 }
@@ -99,31 +99,31 @@ static void report(const sweep *s, const sweep_file *f, double wall)
     decimal(s->until, until);
     text_seconds(now.seconds, inside);
     text_seconds(wall, all);
-    fprintf(out, "%s: %s, %s %s%s, ", s->model.title, s->method,
-            exact   ? "accuracy"
-            : fixed ? "step"
-                    : "tolerance",
-            step, s->absolute ? " absolute" : "");
-    if (now.steps > 0) fprintf(out, "%lld steps ", (long long)now.steps);
-    fprintf(out, "to %s = %s, ", s->model.time, isnan(s->until) ? "its own end" : until);
+    char how[96] = "", made[96] = "", of[DECIMAL_MAX + SHARD_TEXT + 32] = "", found[64] = "", each[64] = "";
+    if (now.steps > 0) snprintf(how, sizeof how, "%lld steps ", (long long)now.steps);
     const bool elsewhere = f->archive && (f->found > 0 || s->options->team); /* other trajectories lie between ours */
     if (now.compiled_from > 0 && elsewhere)
-        fputs("interpreter, then compiled", out);
+        snprintf(made, sizeof made, "interpreter, then compiled");
     else if (now.compiled_from > 0)
-        fprintf(out, "interpreter, then compiled from trajectory %llu",
-                (unsigned long long)(f->found + (uint64_t)now.compiled_from + 1));
+        snprintf(made, sizeof made, "interpreter, then compiled from trajectory %llu",
+                 (unsigned long long)(f->found + (uint64_t)now.compiled_from + 1));
     else
-        fprintf(out, "%s", now.machine);
-    fprintf(out, "%s, %d lane%s, %d thread%s\n", s->options->fast ? " (fast)" : "", now.lanes,
-            now.lanes == 1 ? "" : "s", now.threads, now.threads == 1 ? "" : "s");
-    fprintf(out, "%llu trajectories", (unsigned long long)s->rows);
+        snprintf(made, sizeof made, "%s", now.machine);
+    text_say(out, "%s: %s, %s %s%s, %sto %s = %s, %s%s, %d lane%s, %d thread%s", s->model.title, s->method,
+             exact   ? "accuracy"
+             : fixed ? "step"
+                     : "tolerance",
+             step, s->absolute ? " absolute" : "", how, s->model.time, isnan(s->until) ? "its own end" : until, made,
+             s->options->fast ? " (fast)" : "", now.lanes, now.lanes == 1 ? "" : "s", now.threads,
+             now.threads == 1 ? "" : "s");
     if (!shard_whole(&s->shard))
-        fprintf(out, " of %llu, shard %s", (unsigned long long)s->grid.total, shard_text(&s->shard, shard));
-    if (f->found > 0) fprintf(out, ", %llu of them found in the file", (unsigned long long)f->found);
-    fprintf(out, ": %s, integration %s", all, inside);
-    if (work > 0 && now.seconds > 0) fprintf(out, ", %.3g ns per trajectory and step", now.seconds / work * 1e9);
-    putc('\n', out);
-    if (!output) {
+        snprintf(of, sizeof of, " of %llu, shard %s", (unsigned long long)s->grid.total, shard_text(&s->shard, shard));
+    if (f->found > 0) snprintf(found, sizeof found, ", %llu of them found in the file", (unsigned long long)f->found);
+    if (work > 0 && now.seconds > 0)
+        snprintf(each, sizeof each, ", %.3g ns per trajectory and step", now.seconds / work * 1e9);
+    text_say(out, "%llu trajectories%s%s: %s, integration %s%s", (unsigned long long)s->rows, of, found, all, inside,
+             each);
+    if (!output && f->regular) {
         text_put(out, f->path);
         fprintf(out, ": %zu columns\n", s->columns);
     }

@@ -11,7 +11,9 @@
 #include "tell/tell.h"
 
 #include <stdio.h>
+#include <string.h>
 
+enum { REASONS = 9 };
 #define TOLERANCE 1e-10 /* the first that is tried for the accuracy 1e-9, the default of a run */
 
 /* Makes the run that `auto` would choose. Returns NULL if there is none; the error says why. */
@@ -47,7 +49,7 @@ static void print_auto(const load *m, const char *strong, const char *plain)
     else
         snprintf(line, sizeof line, "none: %s", why.message);
     printf("\n%sauto%s\n", strong, plain);
-    text_wrap(stdout, line, 2, 100);
+    text_wrap(stdout, line, 2);
     motus_run_destroy(run);
 }
 
@@ -84,7 +86,7 @@ static void print_switches(const load *m, const char *strong, const char *plain)
         snprintf(line, sizeof line, "%.400s, where %.400s%s changes: %s%s%s", s.surface, s.operation, number,
                  s.located ? "adaptive methods end their steps there" : "steps cross it, since ", s.not_located,
                  s.located ? sliding[s.sliding] : "");
-        text_wrap(stdout, line, 2, 100);
+        text_wrap(stdout, line, 2);
     }
 }
 
@@ -95,19 +97,21 @@ static motus_status print_text(const load *m, motus_error *err)
     printf("%s%s%s\n\n%sequations%s\n", strong, m->title, plain, strong, plain);
     for (size_t k = 0; (equation = motus_equation_text(m->system, k)) != NULL; k++) {
         fputs("  ", stdout);
-        text_put(stdout, equation);
+        text_flow(stdout, equation, 2, 6, text_columns(stdout));
         putchar('\n');
     }
     const char *text = motus_explain(m->system);
     printf("\n%sanalysis%s\n", strong, plain);
-    text_wrap(stdout, text ? text : "", 2, 100);
+    text_wrap(stdout, text ? text : "", 2);
     const char *events = motus_explain_events(m->system);
     if (*events) {
         printf("\n%sevents%s\n", strong, plain);
-        text_wrap(stdout, events, 2, 100);
+        text_wrap(stdout, events, 2);
     }
     print_switches(m, strong, plain);
     printf("\n%smethods%s\n", strong, plain);
+    char number[32], text_of[REASONS][MOTUS_TEXT_MAX]; /* methods that are not admitted share few reasons */
+    size_t reasons = 0;
     table *t = table_create("llrll");
     table_cell(t, "method");
     table_cell(t, "admitted");
@@ -123,10 +127,21 @@ static motus_status print_text(const load *m, motus_error *err)
         table_cell(t, status ? "no" : "yes");
         table_integer(t, method->order);
         table_cell(t, tell_geometry(geometry));
-        table_cell(t, status ? tell_reason(why.message, method->name) : "");
+        const char *const reason = status ? tell_reason(why.message, method->name) : "";
+        size_t r = 0;
+        while (r < reasons && strcmp(reason, text_of[r]) != 0) r++;
+        if (status && r == reasons && reasons < REASONS) snprintf(text_of[reasons++], MOTUS_TEXT_MAX, "%s", reason);
+        snprintf(number, sizeof number, "(%zu)", r + 1);
+        table_cell(t, status ? r < reasons ? number : reason : "");
     }
     bool good = table_print(t, stdout, 2, colours);
     table_destroy(t);
+    if (reasons > 0) putchar('\n');
+    for (size_t r = 0; r < reasons; r++) {
+        printf("  (%zu) ", r + 1);
+        text_flow(stdout, text_of[r], 6, 6, text_columns(stdout));
+        putchar('\n');
+    }
     print_auto(m, strong, plain);
     return good ? MOTUS_OK : complain_memory(err);
 }

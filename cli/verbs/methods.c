@@ -66,17 +66,19 @@ static motus_status print_catalogue(const options *o, motus_error *err)
     bool good = o->markdown ? table_markdown(t, stdout) : table_print(t, stdout, 0, complain_colours(1));
     table_destroy(t);
     if (good && !o->markdown)
-        puts("\nbetween: the order between steps. forces: what the force may depend on. symplectic: if the force is "
-             "a gradient. limit: largest stable\n"
-             "h ω for x'' = -ω² x. motus check MODEL shows what each method preserves in a model.\n"
-             "motus methods NAME shows the card of a method.");
+        text_wrap(
+            stdout,
+            "\nbetween: the order between steps. forces: what the force may depend on. symplectic: if the force is "
+            "a gradient. limit: largest stable h ω for x'' = -ω² x. motus check MODEL shows what each method "
+            "preserves in a model.\nmotus methods NAME shows the card of a method.",
+            0);
     return good ? MOTUS_OK : complain_memory(err);
 }
 
 static void section(const char *title, const char *text, const char *strong, const char *plain)
 {
     printf("\n%s%s%s\n", strong, title, plain);
-    text_wrap(stdout, text, 2, 90);
+    text_wrap(stdout, text, 2);
 }
 
 static void print_card(const motus_method *m)
@@ -99,7 +101,9 @@ static void print_card(const motus_method *m)
              m->reversible ? "yes" : "no", limit);
     section("properties", properties, strong, plain);
     section("reference", m->cite ? m->cite : "", strong, plain);
-    section("when to use it", m->use ? m->use : "", strong, plain);
+    printf("\n%swhen to use it%s\n  ", strong, plain);
+    text_flow(stdout, m->use ? m->use : "", 2, 2, text_columns(stdout));
+    putchar('\n');
 }
 
 static motus_status print_auto(motus_error *err)
@@ -111,7 +115,7 @@ static motus_status print_auto(motus_error *err)
         "has kinks. Each integrates the first part of the motion; the one that needs the fewest operations is chosen. "
         "No clock is read, so the choice is the same on every machine. motus run prints the choice and its reason, and "
         "motus check MODEL prints them beforehand.",
-        2, 90);
+        2);
     return file_flush_output(err);
 }
 

@@ -72,6 +72,17 @@ static bool show_json(const motus_error *err)
     return fflush(stdout) == 0 && !ferror(stdout);
 }
 
+/* Prints "from: text". On a terminal it is wrapped; in a log a message is one line, which programs search. */
+static void tell(const char *from, const char *text, size_t indent)
+{
+    text_put(stderr, from);
+    fputs(": ", stderr);
+    if (isatty(STDERR_FILENO))
+        text_flow(stderr, text, text_width(from) + 2, indent, text_columns(stderr));
+    else
+        text_put(stderr, text);
+}
+
 int complain_show(const motus_error *given, bool as_json)
 {
     motus_error own = *given, *err = &own;
@@ -82,13 +93,10 @@ int complain_show(const motus_error *given, bool as_json)
     const char *strong = colours ? "\033[1m" : "", *red = colours ? "\033[31m" : "", *plain = colours ? "\033[0m" : "";
     fflush(stdout);
     fputs(strong, stderr);
-    if (err->line > 0) {
-        text_put(stderr, err->file[0] ? err->file : "model");
-        fprintf(stderr, ":%d:%d: ", err->line, err->column);
-    } else {
-        fputs("motus: ", stderr);
-    }
-    text_put(stderr, err->message);
+    char place[4096] = "motus";
+    if (err->line > 0)
+        snprintf(place, sizeof place, "%s:%d:%d", err->file[0] ? err->file : "model", err->line, err->column);
+    tell(place, err->message, 4);
     fprintf(stderr, "%s\n", plain);
     if (err->source[0]) {
         fputs("    ", stderr);
@@ -101,8 +109,7 @@ int complain_show(const motus_error *given, bool as_json)
         fprintf(stderr, "%s\n", plain);
     }
     if (err->hint[0]) {
-        fputs("  hint: ", stderr);
-        text_put(stderr, err->hint);
+        tell("  hint", err->hint, 8);
         putc('\n', stderr);
     }
     return motus_status_exit(err->status);
@@ -117,7 +124,6 @@ void complain_note(const char *format, ...)
     va_end(arguments);
     complain_named(raw, note, sizeof note);
     fflush(stdout);
-    fputs("motus: ", stderr);
-    text_put(stderr, note);
+    tell("motus", note, 4);
     putc('\n', stderr);
 }

@@ -1,7 +1,7 @@
 /* A table of text.
  *
  * Invariant: the cells are one list, row by row, each as text_safe() makes it. A table that ran out of memory prints
- * nothing.
+ * nothing. No line is wider than the terminal, unless the first column and another one are.
  */
 #include "cli/words/text.h"
 
@@ -87,26 +87,62 @@ void table_integer(table *t, long long value)
     table_cell(t, text);
 }
 
+enum { GAP = 2, PROSE = 24 }; /* columns between cells; the least for prose in the last column */
+
+typedef struct layout {
+    size_t width[MOST_COLUMNS];
+    size_t indent, wide; /* wide: the columns of the terminal */
+    bool colours;
+} layout;
+
+/* Prints the first column and those from `from` up to `to`. */
+static void print_block(const table *t, FILE *out, const layout *l, size_t from, size_t to)
+{
+    for (size_t row = 0; row * t->columns < t->count; row++) {
+        size_t at = l->indent;
+        fprintf(out, "%*s", (int)l->indent, "");
+        for (size_t k = 0; k < to; k = k ? k + 1 : from) {
+            const size_t i = row * t->columns + k, next = k ? k + 1 : from;
+            const char *cell = i < t->count ? t->cells[i] : "";
+            const size_t pad = l->width[k] - text_width(cell);
+            const bool last = next >= to || i + 1 >= t->count, heading = row == 0 && l->colours;
+            if (last && k > 0 && !*cell) break;
+            if (k > 0) fprintf(out, "%*s", GAP, "");
+            if (k > 0) at += GAP;
+            if (t->align[k] == 'r') fprintf(out, "%*s", (int)pad, "");
+            fputs(heading ? "\033[2m" : "", out);
+            if (last && t->align[k] != 'r' && k > 0)
+                text_flow(out, cell, at, at, l->wide);
+            else
+                fputs(cell, out);
+            fputs(heading ? "\033[0m" : "", out);
+            if (t->align[k] != 'r' && !last) fprintf(out, "%*s", (int)pad, "");
+            at += l->width[k];
+        }
+        putc('\n', out);
+    }
+}
+
+/* A table that is wider than the terminal is printed in parts, each with the first column; prose in the last column is
+ * wrapped there. */
 bool table_print(const table *t, FILE *out, int indent, bool colours)
 {
     if (!t || t->failed) return false;
-    size_t width[MOST_COLUMNS] = {0};
+    layout l = {.indent = (size_t)indent, .wide = text_columns(out), .colours = colours};
     for (size_t i = 0; i < t->count; i++) {
         size_t w = text_width(t->cells[i]);
-        if (w > width[i % t->columns]) width[i % t->columns] = w;
+        if (w > l.width[i % t->columns]) l.width[i % t->columns] = w;
     }
-    for (size_t i = 0; i < t->count; i++) {
-        size_t column = i % t->columns, pad = width[column] - text_width(t->cells[i]);
-        bool heading = i < t->columns, last = column == t->columns - 1 || i == t->count - 1;
-        if (last && column > 0 && !t->cells[i][0]) {
-            putc('\n', out);
-            continue;
+    for (size_t from = 1, to; from == 1 || from < t->columns; from = to) {
+        size_t at = l.indent + l.width[0];
+        for (to = from; to < t->columns; to++) {
+            const bool prose = to == t->columns - 1 && t->align[to] != 'r' && l.width[to] > PROSE;
+            at += GAP + (prose ? PROSE : l.width[to]);
+            if (at > l.wide && to > from) break;
         }
-        fprintf(out, "%*s", column == 0 ? indent : 2, "");
-        if (t->align[column] == 'r') fprintf(out, "%*s", (int)pad, "");
-        fprintf(out, "%s%s%s", heading && colours ? "\033[2m" : "", t->cells[i], heading && colours ? "\033[0m" : "");
-        if (t->align[column] != 'r' && !last) fprintf(out, "%*s", (int)pad, "");
-        if (last) putc('\n', out);
+        if (from > 1) putc('\n', out);
+        print_block(t, out, &l, from, to);
+        if (to == from) break; /* one column only */
     }
     return true;
 }

@@ -5,9 +5,12 @@
  */
 #include "cli/words/text.h"
 
+#include "base/platform.h"
 #include "base/utf8.h"
 
 #include <math.h>
+#include <stdarg.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum { REPLACEMENT = 0xFFFD };
@@ -77,38 +80,64 @@ size_t text_width(const char *s)
     return width;
 }
 
-/* Wraps one line. Returns its end. */
-static const char *wrap_line(FILE *out, const char *s, size_t indent, size_t width)
+size_t text_columns(FILE *out)
+{
+    enum { USUAL = 80, LEAST = 40 };
+    const int columns = platform_columns(fileno(out));
+    return columns <= 0 ? USUAL : columns < LEAST ? LEAST : (size_t)columns;
+}
+
+void text_flow(FILE *out, const char *s, size_t column, size_t indent, size_t width)
 {
     char word[512];
-    size_t column = 0;
-    for (s += strspn(s, " \t"); *s && *s != '\n'; s += strspn(s, " \t")) {
+    bool begun = false;
+    for (s += strspn(s, " \t\n"); *s; s += strspn(s, " \t\n")) {
         const size_t length = strcspn(s, " \n\t"), part = length < sizeof word ? length : sizeof word - 1;
         memcpy(word, s, part);
         word[part] = 0;
         s += part;
         const size_t columns = text_width(word);
-        if (column > 0 && column + 1 + columns > width) {
-            putc('\n', out);
-            column = 0;
-        }
-        if (column == 0)
-            fprintf(out, "%*s", (int)indent, "");
-        else
-            putc(' ', out);
-        column += (column == 0 ? indent : 1) + columns;
+        const bool fits = column + begun + columns <= width || (!begun && column <= indent);
+        if (!fits) fprintf(out, "\n%*s", (int)indent, "");
+        if (begun && fits) putc(' ', out);
+        column = (fits ? column + begun : indent) + columns;
         text_put(out, word);
+        begun = true;
     }
-    putc('\n', out);
-    return s;
 }
 
-void text_wrap(FILE *out, const char *s, size_t indent, size_t width)
+enum { PROSE = 100 }; /* columns of a line that the eye can follow */
+
+static size_t prose_columns(FILE *out)
+{
+    const size_t columns = text_columns(out);
+    return columns < PROSE ? columns : PROSE;
+}
+
+/* Wraps every line, whose first line has the indent `first`. */
+static void wrap(FILE *out, const char *s, size_t first, size_t indent)
 {
     while (*s) {
-        s = wrap_line(out, s, indent, width);
-        s += *s == '\n';
+        const size_t length = strcspn(s, "\n");
+        char *line = strndup(s, length);
+        fprintf(out, "%*s", (int)first, "");
+        text_flow(out, line ? line : "", first, indent, prose_columns(out));
+        putc('\n', out);
+        free(line);
+        s += length + (s[length] == '\n');
     }
+}
+
+void text_wrap(FILE *out, const char *s, size_t indent) { wrap(out, s, indent, indent); }
+
+void text_say(FILE *out, const char *format, ...)
+{
+    char text[4096];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    wrap(out, text, 0, 4);
 }
 
 void text_brief(double value, int digits, char out[DECIMAL_MAX])

@@ -18,8 +18,14 @@ void text_safe(const char *s, char *out, size_t size);
 void text_put(FILE *out, const char *s);
 /* Returns how many columns text_safe(s) takes on a terminal. */
 size_t text_width(const char *s);
-/* Prints each line of `s` indented, and wrapped at `width` columns. */
-void text_wrap(FILE *out, const char *s, size_t indent, size_t width);
+/* Returns how many columns a line on this stream may have: those of its terminal, or 80. */
+size_t text_columns(FILE *out);
+/* Prints each line of `s` indented, and wrapped so that it fits the terminal and can be read. */
+void text_wrap(FILE *out, const char *s, size_t indent);
+/* The same where the first line goes on at a column; the others are indented. Does not end the last line. */
+void text_flow(FILE *out, const char *s, size_t column, size_t indent, size_t width);
+/* Formats prose, and prints it as text_wrap() does, with lines that go on indented by 4. */
+void text_say(FILE *out, const char *format, ...);
 
 /* Writes a number with |digits| significant digits, always with an exponent if `digits` is negative; NaN as "-". */
 void text_brief(double value, int digits, char out[DECIMAL_MAX]);

@@ -46,7 +46,8 @@ refuses() {
     if grep -qvE '^(motus: |[^ ].*:[0-9]+:[0-9]+: |    |  hint: )' "$err"; then not_ok "$name" "the message is out of shape" "$(cat "$err")"; return; fi
     ok "$name"
 }
-says() { grep -qF -- "$1" "${2:-$out}"; }
+# Lines of prose may be wrapped within the words.
+says() { grep -qF -- "$1" "${2:-$out}" || tr -s ' \n' ' ' <"${2:-$out}" | grep -qF -- "$1"; }
 lacks() { ! grep -qF -- "$1" "${2:-$out}"; }
 empty() { [ ! -s "$1" ]; }
 absent() { [ ! -e "$1" ]; }
