@@ -173,7 +173,7 @@ bool stepper_blurred(stepper *s, const stepper_body *body)
 {
     work *w = &s->work;
     const stepper_count now = {w->n, w->evaluations, w->iterations, w->refused};
-    if (!stepper_may_blur(s)) return false;
+    if (!stepper_may_blur(s) || fabs(w->next) < w->least) return false; /* a shortest step is the caller's limit */
     stepper_put(s, s->at, s->snapshot); /* a candidate that is refused changes the size of the next one */
     const int bad = stepper_repeat(s, now.steps - w->n);
     if (bad && !(bad == STEP_STALLED && w->n == now.steps)) return false;
