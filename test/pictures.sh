@@ -173,7 +173,7 @@ draws "a section that names two of three" run "$place/lorenz.motus" --method dop
 that "... is drawn against the time" eval "says \"set xlabel 't'\" '$script' && says \"set ylabel 'x'\" '$script'"
 draws "a section of a position that has a first-order variable beside it" run models/van-der-pol.motus --section "x = 0" --error none
 that "... is drawn against the time, since it fixes the position" eval "says \"'t'\" '$script' && says \"x''\" '$script'"
-draws "points at times that differ late" run models/bouncing-ball.motus --section "y = 0" --error none
+draws "points at times that differ late" run "$place/late.motus" --section "x = 0" --error none
 that "... have few long numbers" eval "grep -q '^set xtics [0-9]' '$script'"
 draws "a section in space" run models/penning-trap.motus --section "r.x = 0 rising" --error none
 that "... is drawn in the plane of the next component" eval "says \"set xlabel 'r.y'\" '$script' && says \"set ylabel 'r''.y'\" '$script'"
