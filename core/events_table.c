@@ -278,8 +278,10 @@ bool events_accumulate(events *e, size_t rule, size_t instance, double t)
     const double one = fabs(r->t[0] - r->t[1]), two = fabs(r->t[1] - r->t[2]), ulp = events_ulp(t),
                  noise = noise_of(e, f, t);
     if (!best_tail(r, levels, noise, false, &k)) {
-        /* where an action leaves ever smaller parts of the speed, rounding may hide the next flight */
-        const bool low = f != SIZE_MAX && one < two / 2 && fabs(e->here.rate[f]) * one / 4 <= e->here.bound[f];
+        /* where an action leaves ever smaller parts of the speed, rounding may hide the next flight, on which the
+         * function has turned back; two events in one instant are none */
+        const bool flight = f != SIZE_MAX && one > 0 && e->left.rate[f] * e->here.rate[f] < 0;
+        const bool low = flight && one < two / 2 && fabs(e->here.rate[f]) * one / 4 <= e->here.bound[f];
         if (!low || is_told(e, rule, instance, t, noise)) return false;
         events_end_here(e, rule, instance, t);
         e->limit_part = 0, e->limit_part_error = 1;
