@@ -126,11 +126,6 @@ export const scenes: readonly SceneEntry[] = [
     picture: { view: 'plane', curves: [['r.x', 'r.y']], until: 40 },
   },
   {
-    model: 'rocket', theme: 'events',
-    methods: ['dop853', 'rk4'],
-    picture: { view: 'time', curves: [['t', 'h']], until: 77 },
-  },
-  {
     model: 'stick-slip', theme: 'events',
     methods: ['dop853', 'taylor'],
     picture: { view: 'phase', curves: [['x', "x'"]], until: 14 },

@@ -197,17 +197,12 @@ reference outer-solar-system kahan-li8 50 200000 <<'R'
 ["r'"][5][2]  1.685048429944169340473e-4 2.6e-13
 R
 
-# --- what comments say of tables and events ----------------------------------------------------------------------------------------
-said=$("$motus" run models/rocket.motus --method dop853 --tolerance 1e-10 --json | jq -r '[.events[0].state.h, .events[0].time, .events[1].time] | @tsv' | awk '{ printf "%.2f m %.2f s %.2f s", $1, $2, $3 }')
-if [ "$said" = "297.34 m 7.41 s 77.05 s" ] && grep -q '297.34 m in 7.41 s and lands after 77.05 s' models/rocket.motus; then ok "the rocket's top and landing"
-else not_ok "the rocket's top and landing" "$said"; fi
-
 # --- the commands in the comments work -----------------------------------------------------------------------------------
 mkdir "$place/try" && ln -s "$root/models" "$place/try/models"
 motus() { "$motus" "$@"; }
 while IFS= read -r line; do
     command=$(sed -E 's/^# (Try:)? *//; s/  +\(.*$//' <<<"$line")
-    if (cd "$place/try" && rm -f ./*.svg && eval "$command" >"$place/log" 2>&1 </dev/null); then ok "$command"
+    if (cd "$place/try" && eval "$command" >"$place/log" 2>&1 </dev/null); then ok "$command"
     else not_ok "$command" "exit status $?" "$(tail -n 8 "$place/log")"; fi
 done < <(grep -hE '^# (Try:)? +motus ' models/*.motus)
 

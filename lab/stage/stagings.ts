@@ -58,10 +58,6 @@ export const stagings: Readonly<Record<string, Staging>> = {
     walls: [[0, 0, 1]],
     dials: [{ name: "r'(0)", part: 0, low: -1, high: 1 }, { name: "r'(0)", part: 1, low: -1, high: 1 }, { name: 'r(0)', part: 0, low: -0.9, high: 0.9 }],
   },
-  'rocket': {
-    decor: 'floor', units: metres, frame: { y: [-20, 340] },
-    dials: [{ name: 'empty', unit: 'kg', low: 0.01, high: 0.1 }, { name: 'chute', unit: 'm²', low: 0.001, high: 0.1 }],
-  },
   'stick-slip': {
     dials: [{ name: 'V', low: 0.1, high: 1 }, { name: 'f', low: 0, high: 0.95 }],
   },

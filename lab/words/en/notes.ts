@@ -104,10 +104,6 @@ export const notes: Readonly<Record<string, Note>> = {
   billiard: [
     'Within 0.4 of the centre. The angle at which it leaves the rim is that at which it came, so that its angular momentum, 0.4, stays, and with it the circle that every chord touches. 55 hits in 100 units of time; all chords take the same 1.833.',
   ],
-  'rocket': [
-    'No: what is light is slowed more, since the drag divided by the mass counts. Empty it weighs 60 g and rises 297.3 m. With 30 g it rises 331.5 m, with 10 g only 297.0 m; without drag it would rise 818 m. The parachute brings it down at 4.3 m/s, after 77.05 s.',
-    'The thrust is a table over the time, and the density of the air one over the height: straight lines between measured points. Adaptive methods end their steps at the points.',
-  ],
   'stick-slip': [
     'Because friction holds better than it drags: at rest on the belt up to a pull of 1, in motion with 0.6. The mass rides along until the spring pulls with 1, slips back for 4.9337, and rides again, over and over, with the period 6.533703423. The spring is stretched to '
     + '1.240312 at most.',
@@ -145,9 +141,6 @@ export const movedNotes: Readonly<Record<string, Note>> = {
   ],
   billiard: [
     'Near the centre. The angle at which it leaves the rim is that at which it came, so that its angular momentum stays, and with it the circle that every chord touches. All chords take the same time.',
-  ],
-  'rocket': [
-    'No: what is light is slowed more, since the drag divided by the mass counts. The thrust is a table over the time, and the density of the air one over the height.',
   ],
   'stick-slip': [
     'Because friction holds better than it drags, while f is below 1: the mass rides along until the spring pulls with 1, slips back, and rides again.',

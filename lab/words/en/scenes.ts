@@ -77,13 +77,6 @@ export const scenes: Readonly<Record<string, SceneWords>> = {
     sentence: 'No friction, a round table: the ball flies straight and leaves the rim as it came.',
     dials: { "r'(0).x": 'Sideways', "r'(0).y": 'Upwards', 'r(0).x': 'Start' },
   },
-  'rocket': {
-    title: 'Model rocket', question: 'Does the lightest one rise highest?',
-    sentence: 'Its motor burns for 1.83 s with a measured thrust. At the top a parachute opens, and it comes down for more than a minute.',
-    moved: 'Its motor burns for 1.83 s with a measured thrust. At the top a parachute opens.',
-    alone: 'How high it is, against time.',
-    dials: { empty: 'Mass without propellant', chute: 'Parachute' },
-  },
   'stick-slip': {
     title: 'Stick and slip', question: 'Why does a string under the bow sound?',
     sentence: 'A belt carries a mass along until its spring tears it away. It slips back, and the belt takes it again.',
