@@ -70,6 +70,8 @@ await attempt('where no green line is, it says why', async () => {
   const dry = encodeURIComponent("x'' = -x - 0.1 sign(x')\nx(0) = 1\nx'(0) = 0\nstep 0.05\nuntil 20"), page = await open(`${singleFile}#v=1&m=${dry}&a=rk4`, { width: 390, height: 844, touch: true });
   await settled(page, 500);
   const said = () => page.locator('#status .message').textContent();
+  // A busy machine may take longer than the page allows.
+  if (/longer than 20 seconds/.test(await said())) { await page.reload(); await settled(page, 500); }
   judge('the core’s own reason', /^There is no green curve: from t = 15\.708 on the motion slides along x' = 0: .* dry friction that sticks\.$/.test(await said()), await said());
   same('no green is drawn', await green(page), 0);
   const [told, drawn] = await Promise.all(['#status', '#stage-picture'].map((s) => page.locator(s).boundingBox()));
