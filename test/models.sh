@@ -202,7 +202,7 @@ mkdir "$place/try" && ln -s "$root/models" "$place/try/models"
 motus() { "$motus" "$@"; }
 while IFS= read -r line; do
     command=$(sed -E 's/^# (Try:)? *//; s/  +\(.*$//' <<<"$line")
-    if (cd "$place/try" && eval "$command" >"$place/log" 2>&1 </dev/null); then ok "$command"
+    if (cd "$place/try" && rm -f ./*.svg && eval "$command" >"$place/log" 2>&1 </dev/null); then ok "$command"
     else not_ok "$command" "exit status $?" "$(tail -n 8 "$place/log")"; fi
 done < <(grep -hE '^# (Try:)? +motus ' models/*.motus)
 
