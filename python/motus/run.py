@@ -90,6 +90,12 @@ class Live:
         with self.using:
             self.watch.check(function(self.run, *arguments, err), err)
 
+    def save(self) -> str:
+        """Returns the exact restart state, a text."""
+        out, length = ffi.new("char **"), ffi.new("size_t *")
+        self.call(lib.motus_run_save, out, length)
+        return ffi.buffer(out[0], length[0])[:].decode()
+
     def statistics(self) -> dict[str, Any]:
         s = new("run_statistics")
         lib.motus_run_statistics_of(self.run, s)
@@ -288,9 +294,7 @@ class Run:
     def save(self) -> str:
         """Returns the exact restart state, a text, which the program reads too."""
         if self._saved is None:
-            out, length = ffi.new("char **"), ffi.new("size_t *")
-            self._live.call(lib.motus_run_save, out, length)
-            self._saved = ffi.buffer(out[0], length[0])[:].decode()
+            self._saved = self._live.save()
         return self._saved
 
     def __getstate__(self) -> dict[str, Any]:

@@ -101,9 +101,7 @@ class Stepper:
 
     def save(self) -> str:
         """Returns the exact restart state, a text."""
-        out, length = ffi.new("char **"), ffi.new("size_t *")
-        self._live.call(lib.motus_run_save, out, length)
-        return ffi.buffer(out[0], length[0])[:].decode()
+        return self._live.save()
 
     @property
     def statistics(self) -> dict[str, Any]:

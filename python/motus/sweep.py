@@ -11,6 +11,7 @@ from .calls import Watch, check, new, new_error, strings
 from .errors import AccuracyError, text
 from .model import Model
 from .places import column_name, find
+from .run import doubles
 
 REDUCTIONS = {word: getattr(lib, "MOTUS_REDUCE_" + word.upper())
               for word in ("final", "min", "max", "mean", "time_of_min", "time_of_max", "steps", "refused",
@@ -155,14 +156,14 @@ def sweep(model: Model, vary: Optional[Mapping[str, Any]] = None, *, record: Uni
     ensemble = ffi.gc(made[0], lib.motus_ensemble_destroy)
     values = ffi.new("double *[]", [ffi.from_buffer("double[]", v) for v in given.values()])
     table, stopped = np.empty((len(chosen), count)), np.empty(count)
-    rows = ffi.new("double *[]", [_doubles(row) for row in table])
+    rows = ffi.new("double *[]", [doubles(row) for row in table])
     errors = np.empty_like(table) if error else None
     try:
         if errors is None:
-            status = lib.motus_ensemble_run(ensemble, count, values, rows, _doubles(stopped), err)
+            status = lib.motus_ensemble_run(ensemble, count, values, rows, doubles(stopped), err)
         else:
-            bars = ffi.new("double *[]", [_doubles(row) for row in errors])
-            status = lib.motus_ensemble_run_errors(ensemble, count, values, rows, bars, _doubles(stopped), err)
+            bars = ffi.new("double *[]", [doubles(row) for row in errors])
+            status = lib.motus_ensemble_run_errors(ensemble, count, values, rows, bars, doubles(stopped), err)
         watch.check(status, err)
     except AccuracyError as missed:
         import warnings
@@ -173,10 +174,6 @@ def sweep(model: Model, vary: Optional[Mapping[str, Any]] = None, *, record: Uni
     statistics = {"method": text(s.method), "machine": text(s.machine), "note": text(s.note), "steps": s.steps,
                   "seconds": s.seconds, "lanes": s.lanes, "threads": s.threads}
     return Sweep(given, axes, [name for name, _, _ in chosen], table, errors, stopped, statistics)
-
-
-def _doubles(array: np.ndarray) -> Any:
-    return ffi.from_buffer("double[]", array, require_writable=True)
 
 
 def _variables(model: Model) -> list[Any]:
